@@ -1,0 +1,166 @@
+//! A tour with its files read: picture and masks decoded, checked against each other, cropped.
+
+use std::path::Path;
+
+use glam::UVec2;
+
+use crate::picture::Lens;
+use crate::picture::Mask;
+use crate::picture::Picture;
+use crate::picture::PictureError;
+use crate::picture::PixelRect;
+use crate::picture::decode_mask;
+use crate::picture::decode_picture;
+use crate::tour::Problem;
+use crate::tour::Problems;
+use crate::tour::Region;
+use crate::tour::RelativePath;
+use crate::tour::Tour;
+
+/// A tour and the pixels it speaks of; picture, masks and numbers all refer to the part that is used.
+#[derive(Clone, Debug)]
+pub struct TourSource {
+    /// The tour in pixels of [`Self::picture`].
+    pub tour: Tour,
+    /// The picture, cropped.
+    pub picture: Picture,
+    /// Its size before the crop.
+    pub uncropped_size: UVec2,
+    /// What the file says about the lens.
+    pub lens: Option<Lens>,
+    /// Visible water.
+    pub water: Option<Mask>,
+    /// Visible ground.
+    pub ground: Option<Mask>,
+    /// Visible coverage of each object, in the tour's order.
+    pub objects: Vec<Mask>,
+    /// What was put right while reading (a broken color profile, say).
+    pub notes: Vec<String>,
+}
+
+impl TourSource {
+    /// Reads and checks the files of a tour; `read` gets a path relative to the tour's folder.
+    ///
+    /// # Errors
+    ///
+    /// All problems at once: files that cannot be read or decoded, masks of another size or without any coverage, a
+    /// picture of another shape than the tour says, reflections on dry land.
+    pub fn read(
+        tour: &Tour,
+        read: &dyn Fn(&RelativePath) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, Problems> {
+        let load = |place: &str, file: &RelativePath| {
+            read(file).map_err(|error| {
+                Problem::new(
+                    place,
+                    format!("\"{}\"", file.as_str()),
+                    format!("the file cannot be read: {error}"),
+                    "put the file beside the tour, or write the path it has, relative to the tour's folder",
+                )
+            })
+        };
+        let file = &tour.picture.file;
+        let bytes = load("picture.file", file)?;
+        let decoded = decode_picture(&bytes, file.as_str())
+            .map_err(|error| from_picture_error("picture.file", file.as_str(), &error))?;
+        let size = decoded.picture.size();
+        tour.check_size(size)?;
+
+        let crop = tour.crop_in(size);
+        let low = UVec2::new(crop.left, crop.top);
+        let rect = PixelRect { min: low, max: low + UVec2::new(crop.width, crop.height) };
+        let used = tour.in_pixels_of(size);
+        let mut problems = Vec::new();
+        let mut region = |place: &str, whole: &Region, used: &Region| match (whole, used) {
+            (Region::Mask(file), _) => {
+                let mask = load(place, file).and_then(|bytes| {
+                    decode_mask(&bytes, file.as_str(), size)
+                        .map_err(|error| from_picture_error(place, file.as_str(), &error))
+                });
+                mask.map(|mask| cropped(&mask, rect)).map_err(|problem| problems.push(problem)).ok()
+            }
+            (_, Region::Polygon(corners)) => Mask::from_polygon(rect.size(), corners)
+                .map_err(|error| problems.push(from_picture_error(place, "the polygon", &error)))
+                .ok(),
+            (Region::Polygon(_), Region::Mask(_)) => None,
+        };
+        let water = tour.water.as_ref().zip(used.water.as_ref());
+        let water = water.and_then(|(whole, used)| region("water.region", &whole.region, &used.region));
+        let ground = tour.ground.as_ref().zip(used.ground.as_ref());
+        let ground = ground.and_then(|(whole, used)| region("ground.region", &whole.region, &used.region));
+        let objects: Vec<Option<Mask>> = tour
+            .objects
+            .iter()
+            .zip(&used.objects)
+            .enumerate()
+            .map(|(i, (whole, used))| {
+                region(&format!("objects[{i}].outline"), &whole.outline, &used.outline)
+            })
+            .collect();
+        for (i, mask) in objects.iter().enumerate() {
+            if mask.as_ref().is_some_and(|mask| mask.bounds().is_none()) {
+                problems.push(Problem::new(
+                    format!("objects[{i}].outline"),
+                    format!("\"{}\"", tour.objects[i].name),
+                    "the outline covers nothing of the picture",
+                    "draw it around the object, or check that the mask is light where the object is",
+                ));
+            }
+        }
+        if let Some(mask) = &water {
+            problems.extend(used.dry_reflections(&|point| mask.sample(point)));
+        }
+        if !problems.is_empty() {
+            return Err(Problems(problems));
+        }
+        Ok(Self {
+            picture: decoded.picture.crop(rect).unwrap_or(decoded.picture),
+            tour: used,
+            uncropped_size: size,
+            lens: decoded.lens,
+            water,
+            ground,
+            objects: objects.into_iter().flatten().collect(),
+            notes: decoded.notes,
+        })
+    }
+
+    /// Opens a tour file of the file system.
+    ///
+    /// # Errors
+    ///
+    /// All problems of the document, or else all of its files; each names the file.
+    pub fn open(path: &Path) -> Result<Self, Problems> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path).map_err(|error| {
+            Problems::from(Problem::new(
+                "",
+                "",
+                format!("the tour cannot be read: {error}"),
+                "check the path; `picture-tour new PICTURE` writes a tour to start from",
+            ))
+            .with_file(&name)
+        })?;
+        let tour = Tour::read(&text).map_err(|problems| problems.with_file(&name))?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let inside = |file: &RelativePath| {
+            let path = file.in_folder(&folder);
+            std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
+        };
+        Self::read(&tour, &inside).map_err(|problems| problems.located_in(&text).with_file(&name))
+    }
+}
+
+fn from_picture_error(place: &str, file: &str, error: &PictureError) -> Problem {
+    Problem::new(place, format!("\"{file}\""), error.to_string(), "")
+}
+
+/// The part of a mask inside `rect`.
+fn cropped(mask: &Mask, rect: PixelRect) -> Mask {
+    let values = (rect.min.y..rect.max.y)
+        .flat_map(|y| (rect.min.x..rect.max.x).map(move |x| (x, y)))
+        .map(|(x, y)| mask.get(x, y))
+        .collect();
+    // The count is right by construction.
+    Mask::new(rect.size(), values).unwrap_or_else(|_| mask.clone())
+}

@@ -1,0 +1,24 @@
+//! Step into a picture: one still picture with water in it becomes a scene one can fly through.
+#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test may panic"))]
+
+pub mod picture;
+
+pub mod camera;
+
+pub mod tour;
+
+pub mod solve;
+
+pub mod scene;
+
+pub mod maps;
+
+pub mod assemble;
+
+pub mod trace;
+
+#[cfg(feature = "plugin")]
+pub mod plugin;
+
+#[cfg(all(feature = "plugin", not(target_arch = "wasm32")))]
+pub mod headless;

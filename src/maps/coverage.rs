@@ -1,0 +1,217 @@
+//! Which pixel of the picture belongs to which component, and where the water is seen.
+//!
+//! Masks in files are visible coverage. Above the background's contact line everything that nothing else covers is
+//! background; below it, it is water, unless the masks leave it to the background (what hangs under the contact line).
+
+use glam::{IVec2, UVec2};
+
+use super::Grid;
+use super::fill::push_pull;
+use crate::picture::Mask;
+use crate::picture::PicturePoint;
+use crate::scene::Surface;
+use crate::scene::TourScene;
+
+/// The masks of a tour, all of the picture's size.
+#[derive(Clone, Debug)]
+pub struct TourMasks {
+    /// Visible water; without it all that is left below the background's contact line is water.
+    pub water: Option<Mask>,
+    /// Visible ground.
+    pub ground: Option<Mask>,
+    /// Visible coverage of each billboard, in the scene's order.
+    pub billboards: Vec<Mask>,
+}
+
+/// Who covers what.
+#[derive(Clone, Debug)]
+pub(super) struct Coverage {
+    /// Per component its own coverage 0–255: visible where it is seen, guessed where a billboard hides it.
+    pub alpha: Vec<Grid<u8>>,
+    /// Per component the coverage grown by the fringe: where its layer answers for the picture's colors.
+    pub grown: Vec<Grid<u8>>,
+    /// Pixels whose ray meets the background before the water.
+    pub above: Grid<bool>,
+    /// Pixels that show nothing but water.
+    pub water: Grid<bool>,
+    /// Pixels that show nothing but the component: bits by component index, 0–63.
+    pub pure: Grid<u64>,
+}
+
+/// Coverage this near to nothing or to everything is that: renderers and compressors leave dust in masks.
+const DUST: u8 = 6;
+
+/// Width of the fringe in which a mask's own edge is not trusted, pixels per pixel of picture width.
+const FRINGE: f64 = 0.001;
+
+impl Coverage {
+    pub(super) fn of(scene: &TourScene, masks: &TourMasks) -> Self {
+        let size = scene.camera.intrinsics.size;
+        let above = above_contact(scene, size);
+        let fringe = (FRINGE * f64::from(size.x)).round().max(1.0) as i32;
+        let ground = scene.ground();
+        let first_billboard = if ground.is_some() { 2 } else { 1 };
+
+        let billboards: Vec<Grid<u8>> = masks.billboards.iter().map(boxed).collect();
+        let hidden = Grid::from_fn(IVec2::ZERO, size, |pixel| {
+            billboards.iter().map(|grid| u32::from(grid.get(pixel).unwrap_or(0))).sum::<u32>().min(255) as u8
+        });
+        let [background_alpha, ground_alpha] = framework_alpha(scene, masks, &above, &hidden);
+        let mut alpha = vec![background_alpha];
+        if ground.is_some() {
+            alpha.push(ground_alpha);
+        }
+        alpha.extend(billboards);
+
+        let grown: Vec<Grid<u8>> = alpha
+            .iter()
+            .enumerate()
+            .map(|(index, grid)| if index < first_billboard { grid.clone() } else { grow(grid, fringe, size) })
+            .collect();
+        let water = Grid::from_fn(IVec2::ZERO, size, |pixel| {
+            scene.water
+                && !above.get(pixel).unwrap_or(true)
+                && grown.iter().all(|grid| grid.get(pixel).unwrap_or(0) == 0)
+        });
+        let pure = Grid::from_fn(IVec2::ZERO, size, |pixel| {
+            let covers = |index: usize| grown[index].get(pixel).unwrap_or(0) > 0;
+            let nothing_else = |own: usize| (0..grown.len()).all(|other| other <= own || !covers(other));
+            let mut bits = 0;
+            for (index, grid) in alpha.iter().enumerate() {
+                // Billboards overlap in any order, so each excludes all others; the framework lies under them.
+                let alone = if index < first_billboard {
+                    nothing_else(index)
+                } else {
+                    (first_billboard..grown.len()).all(|other| other == index || !covers(other))
+                };
+                if alone && grid.get(pixel).unwrap_or(0) >= 250 {
+                    bits |= 1 << index;
+                }
+            }
+            bits
+        });
+        Self { alpha, grown, above, water, pure }
+    }
+}
+
+/// Pixels whose ray meets the background before the water; all of them without water.
+fn above_contact(scene: &TourScene, size: UVec2) -> Grid<bool> {
+    let background = scene.background().surface;
+    Grid::from_fn(IVec2::ZERO, size, |pixel| {
+        let ray = scene.camera.ray(PicturePoint::pixel_center(pixel.x.into(), pixel.y.into()));
+        if !scene.water || ray.direction.y >= 0.0 {
+            return true;
+        }
+        let to_water = -ray.origin.y / ray.direction.y;
+        background.meet_plane(ray).is_some_and(|t| t <= to_water)
+    })
+}
+
+/// Coverage of background and ground, guessed behind billboards from what is seen around them.
+fn framework_alpha(
+    scene: &TourScene,
+    masks: &TourMasks,
+    above: &Grid<bool>,
+    hidden: &Grid<u8>,
+) -> [Grid<u8>; 2] {
+    let size = scene.camera.intrinsics.size;
+    let ground_surface = scene.ground().map(|index| scene.components[index].surface);
+    let background = scene.background().surface;
+    // Shares of [background below its contact line, ground] among what is not hidden.
+    let mut shares: Vec<[f32; 2]> = Vec::with_capacity(hidden.cells.len());
+    let mut known: Vec<f32> = Vec::with_capacity(hidden.cells.len());
+    for index in 0..hidden.cells.len() {
+        let pixel = hidden.pixel(index).as_uvec2();
+        let coverage = |mask: &Option<Mask>| {
+            mask.as_ref().map_or(0.0, |mask| f32::from(dusted(mask.get(pixel.x, pixel.y))) / 255.0)
+        };
+        let seen = 1.0 - f32::from(hidden.cells[index]) / 255.0;
+        let ground = coverage(&masks.ground).min(seen);
+        let rest = match &masks.water {
+            Some(_) => (seen - coverage(&masks.water) - ground).max(0.0),
+            None => 0.0,
+        };
+        shares.push(if seen > 0.0 { [rest / seen, ground / seen] } else { [0.0; 2] });
+        known.push(if seen > 0.98 { 1.0 } else { 0.0 });
+    }
+    let visible = shares.clone();
+    push_pull(size.x as usize, &mut shares, &known);
+
+    let code = |share: f32| (255.0 * share.clamp(0.0, 1.0)).round() as u8;
+    // A guessed border is drawn sharp; a seen one keeps its mask's softness.
+    let guessed = |share: f32| ((share - 0.5) * 4.0 + 0.5).clamp(0.0, 1.0);
+    let pick = |index: usize, channel: usize| {
+        if known[index] == 1.0 { visible[index][channel] } else { guessed(shares[index][channel]) }
+    };
+    let before_background = |pixel: IVec2| {
+        ground_surface.is_some_and(|surface| {
+            let ray = scene.camera.ray(PicturePoint::pixel_center(pixel.x.into(), pixel.y.into()));
+            surface
+                .meet(ray)
+                .is_some_and(|t| background.meet_plane(ray).is_none_or(|to_background| t < to_background))
+        })
+    };
+    let width = size.x as usize;
+    let ground = Grid::from_fn(IVec2::ZERO, size, |pixel| {
+        let share = pick(pixel.y as usize * width + pixel.x as usize, 1);
+        if share > 0.0 && before_background(pixel) { code(share) } else { 0 }
+    });
+    let background = Grid::from_fn(IVec2::ZERO, size, |pixel| {
+        let index = pixel.y as usize * width + pixel.x as usize;
+        if above.cells[index] {
+            return 255;
+        }
+        // Antialiased masks leave slivers between them everywhere; only what somewhere near is mostly background, or
+        // ground that has no place on the ground's plane, hangs under the contact line.
+        let near = |channel: usize| {
+            (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| IVec2::new(dx, dy))).any(|step| {
+                above.index(pixel + step).is_some_and(|near| pick(near, channel) > 0.5)
+            })
+        };
+        let mut share = if near(0) { pick(index, 0) } else { 0.0 };
+        if ground.cells[index] == 0 && near(1) {
+            share += pick(index, 1);
+        }
+        code(share)
+    });
+    [background, ground]
+}
+
+/// The part of a mask that is not empty, with a border of one empty pixel that may lie outside the picture.
+fn boxed(mask: &Mask) -> Grid<u8> {
+    let Some(bounds) = mask.bounds() else {
+        return Grid::filled(IVec2::ZERO, UVec2::ONE, 0);
+    };
+    let inside = mask.size().as_ivec2();
+    Grid::from_fn(bounds.min.as_ivec2() - 1, bounds.size() + 2, |pixel| {
+        let within = pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(inside).all();
+        if within { dusted(mask.get(pixel.x as u32, pixel.y as u32)) } else { 0 }
+    })
+}
+
+fn dusted(coverage: u8) -> u8 {
+    match coverage {
+        0..DUST => 0,
+        _ if coverage > 255 - DUST => 255,
+        _ => coverage,
+    }
+}
+
+/// Coverage with a fringe around it: cells within `radius` of any coverage get at least 1.
+pub(super) fn grow(grid: &Grid<u8>, radius: i32, picture: UVec2) -> Grid<u8> {
+    let low = (grid.origin - radius).max(IVec2::ZERO - 1);
+    let high = (grid.origin + grid.size.as_ivec2() + radius).min(picture.as_ivec2() + 1).max(low + 1);
+    let any = |from: &Grid<u8>, pixel: IVec2, step: IVec2| {
+        (-radius..=radius).any(|i| from.get(pixel + i * step).unwrap_or(0) > 0)
+    };
+    let rows = Grid::from_fn(low, (high - low).as_uvec2(), |pixel| u8::from(any(grid, pixel, IVec2::X)));
+    Grid::from_fn(rows.origin, rows.size, |pixel| {
+        let own = grid.get(pixel).unwrap_or(0);
+        if own == 0 { u8::from(any(&rows, pixel, IVec2::Y)) } else { own }
+    })
+}
+
+/// Whether the surface is one that a mirrored ray can meet: upright, or level and above the water.
+pub(super) fn is_mirrored(surface: &Surface) -> bool {
+    !matches!(surface, Surface::Level(level) if level.height < 1e-3)
+}

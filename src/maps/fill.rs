@@ -1,0 +1,123 @@
+//! Push-pull: unknown cells take the weighted mean of what is known around them, at the finest scale that knows any.
+//!
+//! Known cells (weight 1) keep their values to the bit.
+
+use rayon::prelude::*;
+
+/// One level of the pyramid: values and how much of each is known, 0–1.
+struct Level<const C: usize> {
+    width: usize,
+    height: usize,
+    values: Vec<[f32; C]>,
+    weights: Vec<f32>,
+}
+
+/// Fills the cells whose weight is below 1, in place; `values` and `weights` have `width · height` cells.
+///
+/// A cell of weight w keeps w of its own value. When nothing is known at all, everything becomes zero.
+pub(super) fn push_pull<const C: usize>(width: usize, values: &mut [[f32; C]], weights: &[f32]) {
+    if width == 0 || values.is_empty() {
+        return;
+    }
+    let height = values.len() / width;
+    let mut pyramid = vec![reduced(width, height, values, weights)];
+    while let Some(last) = pyramid.last()
+        && last.width * last.height > 1
+    {
+        pyramid.push(reduced(last.width, last.height, &last.values, &last.weights));
+    }
+    while let Some(coarse) = pyramid.pop() {
+        match pyramid.last_mut() {
+            Some(fine) => expand(&coarse, fine.width, &mut fine.values, &fine.weights),
+            None => expand(&coarse, width, values, weights),
+        }
+    }
+}
+
+/// Half the size: means weighted by what is known; one known cell of four makes the whole known.
+fn reduced<const C: usize>(width: usize, height: usize, values: &[[f32; C]], weights: &[f32]) -> Level<C> {
+    let (w, h) = (width.div_ceil(2), height.div_ceil(2));
+    let cells: Vec<([f32; C], f32)> = (0..w * h)
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|index| {
+            let (x, y) = (index % w * 2, index / w * 2);
+            let mut sum = [0.0; C];
+            let mut weight = 0.0;
+            for (i, j) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                if x + i < width && y + j < height {
+                    let from = (y + j) * width + x + i;
+                    weight += weights[from];
+                    for channel in 0..C {
+                        sum[channel] += weights[from] * values[from][channel];
+                    }
+                }
+            }
+            if weight > 0.0 { (sum.map(|s| s / weight), weight.min(1.0)) } else { ([0.0; C], 0.0) }
+        })
+        .collect();
+    let (values, weights) = cells.into_iter().unzip();
+    Level { width: w, height: h, values, weights }
+}
+
+/// Fills a level's unknown share from the bilinearly enlarged coarser one.
+fn expand<const C: usize>(coarse: &Level<C>, width: usize, values: &mut [[f32; C]], weights: &[f32]) {
+    values.par_iter_mut().with_min_len(4096).enumerate().for_each(|(index, value)| {
+        let known = weights[index];
+        if known >= 1.0 {
+            return;
+        }
+        // The fine cell's center in coarse cells.
+        let at = |fine: usize, limit: usize| {
+            let c = (fine as f32 + 0.5) * 0.5 - 0.5;
+            let low = c.floor();
+            let last = limit as i32 - 1;
+            ((low as i32).clamp(0, last) as usize, (low as i32 + 1).clamp(0, last) as usize, c - low)
+        };
+        let (x0, x1, px) = at(index % width, coarse.width);
+        let (y0, y1, py) = at(index / width, coarse.height);
+        let cell = |x: usize, y: usize| &coarse.values[y * coarse.width + x];
+        let (a, b, c, d) = (cell(x0, y0), cell(x1, y0), cell(x0, y1), cell(x1, y1));
+        for channel in 0..C {
+            let top = a[channel] + px * (b[channel] - a[channel]);
+            let bottom = c[channel] + px * (d[channel] - c[channel]);
+            let filled = top + py * (bottom - top);
+            value[channel] = known * value[channel] + (1.0 - known) * filled;
+        }
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn known_cells_keep_their_bits_and_a_hole_stays_within_its_rim() {
+        let (w, h) = (37, 23);
+        let mut values: Vec<[f32; 1]> = (0..w * h).map(|i| [0.2 + 0.01 * (i % w) as f32]).collect();
+        let weights: Vec<f32> = (0..w * h)
+            .map(|i| if (10..20).contains(&(i % w)) && (5..15).contains(&(i / w)) { 0.0 } else { 1.0 })
+            .collect();
+        let before = values.clone();
+        for (value, weight) in values.iter_mut().zip(&weights) {
+            if *weight == 0.0 {
+                *value = [9.0];
+            }
+        }
+        push_pull(w, &mut values, &weights);
+        for i in 0..w * h {
+            if weights[i] == 1.0 {
+                assert_eq!(values[i], before[i], "cell {i} changed");
+            } else {
+                assert!(values[i][0] > 0.25 && values[i][0] < 0.45, "cell {i} became {}", values[i][0]);
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_known_becomes_zero() {
+        let mut values = vec![[3.0, 4.0]; 12];
+        push_pull(4, &mut values, &[0.0; 12]);
+        assert!(values.iter().all(|v| *v == [0.0, 0.0]));
+    }
+}

@@ -1,0 +1,213 @@
+//! Reflection maps that know where each texel came from.
+//!
+//! A texel is *seen* when the picture's water shows it and nothing nearer, or its mirror image, stands before it; else
+//! *predicted* from the component's own texture by the fitted water, brought to its seen neighbours by the membrane of
+//! what the prediction misses there; *missing* when the texture had to be made up too.
+
+use glam::{DVec3, IVec2, UVec2};
+
+use super::coverage::Coverage;
+use super::fill::push_pull;
+use super::mirror::{mirrored, reflection_of};
+use super::tint::{Tint, TintSample};
+use super::zones::{Zone, reach_below, stack_at};
+use super::{Grid, Layer, lift};
+use crate::picture::Picture;
+use crate::picture::PicturePoint;
+use crate::picture::color::linear_from_srgb;
+use crate::picture::color::srgb_from_linear;
+use crate::scene::TourScene;
+
+/// Where a texel of a reflection map came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The picture's water shows it.
+    Seen,
+    /// Made from the component's own texture.
+    Predicted,
+    /// Neither was in the picture.
+    Missing,
+}
+
+/// Fits the water on what the picture shows twice.
+pub(super) fn fit_tint(scene: &TourScene, picture: &Picture, coverage: &Coverage, owner: &Grid<u8>) -> Tint {
+    let size = picture.size();
+    // A sample every few pixels says as much as all of them.
+    let step = (f64::from(size.x) * f64::from(size.y) / 60_000.0).sqrt().max(1.0) as i32;
+    let mut samples = Vec::new();
+    for y in (0..size.y as i32).step_by(step as usize) {
+        for x in (0..size.x as i32).step_by(step as usize) {
+            let pixel = IVec2::new(x, y);
+            let Some(component) = owner.get(pixel).filter(|&owner| owner != 255) else { continue };
+            let surface = &scene.components[usize::from(component)].surface;
+            let Some(found) = mirrored(scene, surface, PicturePoint::pixel_center(x.into(), y.into())) else {
+                continue;
+            };
+            let at = found.direct.0.floor().as_ivec2();
+            if coverage.pure.get(at).is_some_and(|bits| bits & (1 << component) != 0) {
+                samples.push(TintSample {
+                    direct: linear(picture, at),
+                    mirrored: linear(picture, pixel),
+                    grazing: found.grazing,
+                });
+            }
+        }
+    }
+    Tint::fit(&samples)
+}
+
+/// A picture pixel in linear light.
+pub(super) fn linear(picture: &Picture, pixel: IVec2) -> [f32; 3] {
+    picture.pixel(pixel.x as u32, pixel.y as u32).map(linear_from_srgb)
+}
+
+/// What the water shows of the background where a billboard hides it, brought to direct colors: color and weight 0 or 1.
+pub(super) fn background_from_water(
+    scene: &TourScene,
+    picture: &Picture,
+    tint: &Tint,
+    owner: &Grid<u8>,
+    pixel: IVec2,
+) -> Option<[f32; 3]> {
+    let surface = &scene.background().surface;
+    let point = PicturePoint::pixel_center(pixel.x.into(), pixel.y.into());
+    let at = reflection_of(scene, surface, point)?;
+    let corner = (at.0 - 0.5).floor().as_ivec2();
+    let part = (at.0 - 0.5 - corner.as_dvec2()).as_vec2();
+    let mut mean = [0.0; 3];
+    for (step, weight) in [
+        (IVec2::ZERO, (1.0 - part.x) * (1.0 - part.y)),
+        (IVec2::X, part.x * (1.0 - part.y)),
+        (IVec2::Y, (1.0 - part.x) * part.y),
+        (IVec2::ONE, part.x * part.y),
+    ] {
+        if owner.get(corner + step)? != 0 {
+            return None;
+        }
+        let color = linear(picture, corner + step);
+        for c in 0..3 {
+            mean[c] += weight * color[c];
+        }
+    }
+    let ray: DVec3 = scene.camera.ray(at).direction;
+    tint.direct(mean, (-ray.y / ray.length()) as f32)
+}
+
+/// Everything a component's reflection map is made from.
+pub(super) struct ReflectionInput<'a> {
+    pub scene: &'a TourScene,
+    pub picture: &'a Picture,
+    pub coverage: &'a Coverage,
+    pub zones: &'a [Option<Zone>],
+    pub owner: &'a Grid<u8>,
+    pub tint: &'a Tint,
+    /// Filled direct colors of the component, linear light.
+    pub direct: &'a Grid<[f32; 3]>,
+}
+
+/// A component's reflection map before the lift, and the origin of each texel.
+pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, Vec<Origin>) {
+    let ReflectionInput { scene, picture, coverage, zones, owner, tint, direct } = input;
+    let surface = &scene.components[index].surface;
+    let size = picture.size();
+    let (origin, extent) = match &zones[index] {
+        Some(zone) => (zone.grown.origin, zone.grown.size),
+        None => {
+            let top = coverage.above.cells.iter().position(|above| !above).unwrap_or(0) / size.x as usize;
+            let top = top.saturating_sub(2);
+            (IVec2::new(0, top as i32), reach_below(size) - UVec2::new(0, top as u32))
+        }
+    };
+    let texels = Grid::from_fn(origin, extent, |pixel| {
+        let point = PicturePoint::pixel_center(pixel.x.into(), pixel.y.into());
+        let seen = owner.get(pixel) == Some(index as u8);
+        let found = mirrored(scene, surface, point);
+        let (predicted, sourced) = match found {
+            Some(found) => {
+                let at = found.direct.0.floor().as_ivec2();
+                let sourced = coverage.pure.get(at).is_some_and(|bits| bits & (1 << index) != 0);
+                (tint.mirrored(direct.sample(found.direct), found.grazing), sourced)
+            }
+            None => ([0.0; 3], false),
+        };
+        let origin = match (seen, sourced) {
+            (true, _) => Origin::Seen,
+            (false, true) => Origin::Predicted,
+            (false, false) => Origin::Missing,
+        };
+        (predicted, origin)
+    });
+    let width = extent.x as usize;
+    let mut misses: Vec<[f32; 3]> = Vec::with_capacity(texels.cells.len());
+    let mut known: Vec<f32> = Vec::with_capacity(texels.cells.len());
+    for (cell, (predicted, origin)) in texels.cells.iter().enumerate() {
+        if *origin == Origin::Seen {
+            let color = linear(picture, texels.pixel(cell));
+            misses.push(std::array::from_fn(|c| color[c] - predicted[c]));
+            known.push(1.0);
+        } else {
+            misses.push([0.0; 3]);
+            known.push(0.0);
+        }
+    }
+    push_pull(width, &mut misses, &known);
+    let layer = Layer::from_fn(origin, extent, |pixel| {
+        let cell = texels.index(pixel).unwrap_or(0);
+        let (predicted, from) = texels.cells[cell];
+        let alpha = match &zones[index] {
+            Some(zone) => zone.coverage.get(pixel).unwrap_or(0),
+            None => 255,
+        };
+        let [r, g, b] = if from == Origin::Seen {
+            picture.pixel(pixel.x as u32, pixel.y as u32)
+        } else {
+            std::array::from_fn(|c| srgb_from_linear((predicted[c] + misses[cell][c]).clamp(0.0, 1.0)))
+        };
+        [r, g, b, alpha]
+    });
+    (layer, texels.cells.into_iter().map(|(_, origin)| origin).collect())
+}
+
+/// Raises the nearest mirror image at every water pixel until the layers over each other show the picture.
+pub(super) fn lift_reflections(
+    scene: &TourScene,
+    picture: &Picture,
+    coverage: &Coverage,
+    zones: &[Option<Zone>],
+    layers: &mut [Option<Layer>],
+) {
+    let edits = {
+        let layers = &*layers;
+        Grid::from_fn(IVec2::ZERO, picture.size(), |pixel| {
+            if !coverage.water.get(pixel).unwrap_or(false) {
+                return None;
+            }
+            let mut stack = stack_at(scene, zones, pixel);
+            let nearest = stack.pop()?;
+            let behind = composite(layers, &stack, pixel)?;
+            let alpha = layers[nearest].as_ref()?.get(pixel)?[3];
+            let target = picture.pixel(pixel.x as u32, pixel.y as u32);
+            Some((nearest, lift::lifted(target, behind, alpha)))
+        })
+    };
+    for (cell, edit) in edits.cells.iter().enumerate() {
+        if let Some((nearest, texel)) = edit
+            && let Some(layer) = &mut layers[*nearest]
+            && let Some(at) = layer.index(edits.pixel(cell))
+        {
+            layer.cells[at] = *texel;
+        }
+    }
+}
+
+/// What the water shows at a pixel of the first view: reflection layers over each other, linear light.
+pub(super) fn composite(layers: &[Option<Layer>], far_to_near: &[usize], pixel: IVec2) -> Option<[f32; 3]> {
+    let [r, g, b, _] = layers[0].as_ref()?.get(pixel)?;
+    let mut color = [r, g, b].map(linear_from_srgb);
+    for &index in far_to_near {
+        if let Some(texel) = layers[index].as_ref().and_then(|layer| layer.get(pixel)) {
+            color = lift::over(texel, color);
+        }
+    }
+    Some(color)
+}

@@ -1,0 +1,160 @@
+//! Texture maps: what each component shows directly, filled where something hides it.
+
+use glam::IVec2;
+
+use super::coverage::Coverage;
+use super::fill::push_pull;
+use super::reflection::{background_from_water, composite, linear};
+use super::tint::Tint;
+use super::zones::stack_at;
+use super::{Grid, Layer, Zone, lift};
+use crate::picture::Picture;
+use crate::picture::color::srgb_from_linear;
+use crate::scene::Role;
+use crate::scene::TourScene;
+
+/// The direct colors of a component, linear light, filled over its whole grid.
+///
+/// The background takes from the water what the lens did not see; the rest is push-pull.
+pub(super) fn filled_colors(
+    scene: &TourScene,
+    picture: &Picture,
+    coverage: &Coverage,
+    tint: &Tint,
+    owner: &Grid<u8>,
+    index: usize,
+) -> Grid<[f32; 3]> {
+    let area = &coverage.grown[index];
+    let pure = |pixel: IVec2| coverage.pure.get(pixel).is_some_and(|bits| bits & (1 << index) != 0);
+    let mut colors = Grid::from_fn(area.origin, area.size, |pixel| {
+        if pure(pixel) { linear(picture, pixel) } else { [0.0; 3] }
+    });
+    let mut known: Vec<f32> =
+        (0..colors.cells.len()).map(|cell| f32::from(u8::from(pure(colors.pixel(cell))))).collect();
+    if scene.components[index].role == Role::Background && scene.water {
+        fill_from_water(scene, picture, coverage, tint, owner, &mut colors, &mut known);
+    }
+    push_pull(colors.size.x as usize, &mut colors.cells, &known);
+    colors
+}
+
+/// Fills hidden background from its mirror image; the fit's local miss is taken out by a membrane, so that no seam
+/// shows.
+fn fill_from_water(
+    scene: &TourScene,
+    picture: &Picture,
+    coverage: &Coverage,
+    tint: &Tint,
+    owner: &Grid<u8>,
+    colors: &mut Grid<[f32; 3]>,
+    known: &mut [f32],
+) {
+    let candidates = Grid::from_fn(colors.origin, colors.size, |pixel| {
+        coverage
+            .above
+            .get(pixel)
+            .unwrap_or(false)
+            .then(|| background_from_water(scene, picture, tint, owner, pixel))
+            .flatten()
+    });
+    let mut misses = vec![[0.0; 3]; known.len()];
+    let mut both = vec![0.0; known.len()];
+    for (cell, candidate) in candidates.cells.iter().enumerate() {
+        if let Some(candidate) = candidate
+            && known[cell] == 1.0
+        {
+            misses[cell] = std::array::from_fn(|c| colors.cells[cell][c] - candidate[c]);
+            both[cell] = 1.0;
+        }
+    }
+    push_pull(colors.size.x as usize, &mut misses, &both);
+    for (cell, candidate) in candidates.cells.iter().enumerate() {
+        if let Some(candidate) = candidate
+            && known[cell] == 0.0
+        {
+            colors.cells[cell] = std::array::from_fn(|c| (candidate[c] + misses[cell][c]).clamp(0.0, 1.0));
+            known[cell] = 1.0;
+        }
+    }
+}
+
+/// A component's texture map before the lift: the picture where it shows the component alone, the fill elsewhere.
+pub(super) fn texture_map(
+    picture: &Picture,
+    coverage: &Coverage,
+    colors: &Grid<[f32; 3]>,
+    index: usize,
+) -> Layer {
+    Layer::from_fn(colors.origin, colors.size, |pixel| {
+        let pure = coverage.pure.get(pixel).is_some_and(|bits| bits & (1 << index) != 0);
+        let [r, g, b] = if pure {
+            picture.pixel(pixel.x as u32, pixel.y as u32)
+        } else {
+            colors.get(pixel).unwrap_or_default().map(srgb_from_linear)
+        };
+        [r, g, b, coverage.alpha[index].get(pixel).unwrap_or(0)]
+    })
+}
+
+/// Raises the nearest layer at every pixel until the first view shows the picture.
+pub(super) fn lift_textures(
+    scene: &TourScene,
+    picture: &Picture,
+    coverage: &Coverage,
+    zones: &[Option<Zone>],
+    textures: &mut [Layer],
+    reflections: &[Option<Layer>],
+) {
+    let order = draw_order(scene);
+    let edits = {
+        let textures = &*textures;
+        Grid::from_fn(IVec2::ZERO, picture.size(), |pixel| {
+            let covers = |&&index: &&usize| coverage.grown[index].get(pixel).unwrap_or(0) > 0;
+            let nearest = *order.iter().rev().find(covers)?;
+            let above = coverage.above.get(pixel).unwrap_or(true);
+            let mut behind = if above {
+                [0.0; 3]
+            } else {
+                composite(reflections, &stack_at(scene, zones, pixel), pixel)?
+            };
+            for &index in order.iter().take_while(|&&index| index != nearest) {
+                if let Some(texel) = textures[index].get(pixel) {
+                    behind = lift::over(texel, behind);
+                }
+            }
+            let target = picture.pixel(pixel.x as u32, pixel.y as u32);
+            let alpha = textures[nearest].get(pixel)?[3];
+            Some((nearest, lift::lifted(target, behind, alpha)))
+        })
+    };
+    for (cell, edit) in edits.cells.iter().enumerate() {
+        if let Some((nearest, texel)) = edit
+            && let Some(at) = textures[*nearest].index(edits.pixel(cell))
+        {
+            textures[*nearest].cells[at] = *texel;
+        }
+    }
+}
+
+/// Components in the order they are drawn at the first view, far to near: background, ground, billboards.
+fn draw_order(scene: &TourScene) -> Vec<usize> {
+    let mut order = scene.billboards_near_to_far(scene.camera.pose.position);
+    order.extend(scene.ground());
+    order.push(0);
+    order.reverse();
+    order
+}
+
+/// How much of a layer's coverage the lift added, mean over the texels it shows: above 0.15 a halo will show when the
+/// camera moves.
+pub(super) fn mean_lift(layer: &Layer, before: &Grid<u8>) -> f32 {
+    let (mut sum, mut count) = (0.0, 0);
+    for (cell, texel) in layer.cells.iter().enumerate() {
+        if texel[3] > 0 {
+            let own = before.get(layer.pixel(cell)).unwrap_or(0);
+            sum += f32::from(texel[3].saturating_sub(own)) / 255.0;
+            count += 1;
+        }
+    }
+    if count > 0 { sum / count as f32 } else { 0.0 }
+}

@@ -1,0 +1,177 @@
+//! From a handle to a tour that is shown: solving and map building, off the main thread, with an answer in the end.
+//!
+//! Tours whose assets exist at start-up are built once, before the first frame. When a changed file is broken, the last
+//! good tour stays.
+
+use std::sync::Arc;
+
+use bevy::asset::{AssetLoadFailedEvent, AssetEvent};
+use bevy::camera::visibility::RenderLayers;
+use bevy::prelude::*;
+use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
+
+use super::PictureTourSystems;
+use super::asset::{TourAsset, TourLoader};
+use super::camera::TourPath;
+use super::material::ColorPolicy;
+use super::spawn::{self, ShownTour, TourAssets};
+use crate::assemble::AssembleError;
+use crate::assemble::AssembledTour;
+use crate::assemble::assemble;
+use crate::tour::CameraPath;
+use crate::tour::Tour;
+
+/// A tour in the game's world: spawn it with any `Transform`; its parts become children. Despawn it to be rid of all.
+#[derive(Component, Clone, Debug)]
+#[require(Transform, Visibility, ColorPolicy)]
+pub struct PictureTour(pub Handle<TourAsset>);
+
+/// A tour is shown from now on; on the tour's entity.
+#[derive(EntityEvent, Clone, Debug)]
+pub struct TourReady {
+    /// The tour's entity.
+    pub entity: Entity,
+}
+
+/// A tour could not be loaded, solved or built; what was shown before stays.
+#[derive(EntityEvent, Clone, Debug)]
+pub struct TourFailed {
+    /// The tour's entity.
+    pub entity: Entity,
+    /// What is wrong, where, and what to do.
+    pub error: String,
+}
+
+/// A tour being built.
+#[derive(Component)]
+struct Building(Task<Result<AssembledTour, AssembleError>>);
+
+pub(super) fn plugin(app: &mut App) {
+    app.init_asset::<TourAsset>().init_asset_loader::<TourLoader>();
+    app.add_systems(PostStartup, build_now);
+    app.add_systems(Update, (start_building, finish_building).chain().in_set(PictureTourSystems::Input));
+    app.add_systems(Update, report_failures.in_set(PictureTourSystems::Input));
+    app.add_systems(Update, follow_root.in_set(PictureTourSystems::Upload));
+}
+
+/// What a tour's root is asked for when it is shown.
+type Root = (Entity, &'static PictureTour, &'static ColorPolicy, Option<&'static RenderLayers>, Option<&'static ShownTour>);
+
+/// Start-up: builds the tours that exist.
+fn build_now(
+    mut commands: Commands,
+    tours: Query<Root>,
+    sources: Res<Assets<TourAsset>>,
+    mut assets: TourAssets,
+) {
+    for root in &tours {
+        if let Some(TourAsset(source)) = sources.get(&root.1.0) {
+            let built = assemble(source, &|_, _| true);
+            finish(&mut commands, &mut assets, root, &source.tour, built);
+        }
+    }
+}
+
+/// Later: builds tours in the background when they are new or their asset has changed.
+fn start_building(
+    mut commands: Commands,
+    tours: Query<(Entity, Ref<PictureTour>, Has<ShownTour>, Has<Building>)>,
+    sources: Res<Assets<TourAsset>>,
+    mut events: MessageReader<AssetEvent<TourAsset>>,
+) {
+    let changed: Vec<AssetId<TourAsset>> = events
+        .read()
+        .filter_map(|event| match event {
+            AssetEvent::Added { id } | AssetEvent::Modified { id } => Some(*id),
+            _ => None,
+        })
+        .collect();
+    for (entity, tour, shown, building) in &tours {
+        let id = tour.0.id();
+        let is_new = tour.is_changed() || changed.contains(&id);
+        // What start-up has built comes with its own asset event.
+        let done = shown && !building && !changed.contains(&id) && tour.is_added();
+        let Some(TourAsset(source)) = sources.get(id).filter(|_| is_new && !done) else { continue };
+        let source = Arc::clone(source);
+        let task = AsyncComputeTaskPool::get().spawn(async move { assemble(&source, &|_, _| true) });
+        commands.entity(entity).insert(Building(task));
+    }
+}
+
+fn finish_building(
+    mut commands: Commands,
+    mut building: Query<(Entity, &mut Building)>,
+    tours: Query<Root>,
+    sources: Res<Assets<TourAsset>>,
+    mut assets: TourAssets,
+) {
+    for (entity, mut task) in &mut building {
+        let Some(built) = check_ready(&mut task.0) else { continue };
+        commands.entity(entity).remove::<Building>();
+        if let Ok(root) = tours.get(entity)
+            && let Some(TourAsset(source)) = sources.get(&root.1.0)
+        {
+            finish(&mut commands, &mut assets, root, &source.tour, built);
+        }
+    }
+}
+
+fn finish(
+    commands: &mut Commands,
+    assets: &mut TourAssets,
+    (entity, _, policy, layers, before): (
+        Entity,
+        &PictureTour,
+        &ColorPolicy,
+        Option<&RenderLayers>,
+        Option<&ShownTour>,
+    ),
+    tour: &Tour,
+    built: Result<AssembledTour, AssembleError>,
+) {
+    match built {
+        Ok(built) => {
+            for remark in built.remarks.iter().chain(&built.solution.report.remarks) {
+                info!("{remark}");
+            }
+            spawn::show(commands, assets, entity, Arc::new(built), *policy, layers, before);
+            match tour.path.as_ref().and_then(CameraPath::way) {
+                Some(path) => commands.entity(entity).insert(TourPath(path)),
+                None => commands.entity(entity).remove::<TourPath>(),
+            };
+            commands.trigger(TourReady { entity });
+        }
+        Err(error) => {
+            error!("{error}");
+            commands.trigger(TourFailed { entity, error: error.to_string() });
+        }
+    }
+}
+
+/// Passes on what the asset loader found.
+fn report_failures(
+    mut commands: Commands,
+    tours: Query<(Entity, &PictureTour)>,
+    mut failures: MessageReader<AssetLoadFailedEvent<TourAsset>>,
+) {
+    for failure in failures.read() {
+        for (entity, tour) in &tours {
+            if tour.0.id() == failure.id {
+                commands.trigger(TourFailed { entity, error: failure.error.to_string() });
+            }
+        }
+    }
+}
+
+/// Children follow the root's render layers, which Bevy does not inherit.
+fn follow_root(
+    mut commands: Commands,
+    tours: Query<(Entity, &RenderLayers), (With<ShownTour>, Changed<RenderLayers>)>,
+    children: Query<&Children>,
+) {
+    for (root, layers) in &tours {
+        for child in children.iter_descendants(root) {
+            commands.entity(child).insert(layers.clone());
+        }
+    }
+}

@@ -1,0 +1,134 @@
+// What the tour's shaders share: records, rays, and where the picture's camera sees a point.
+//
+// Points are found by intersecting rays in tour space; nothing is interpolated over a quad (architecture.md,
+// decision 2). `see` and `snap` are twins of `trace/eye.rs` and `maps/grid.rs`.
+
+#define_import_path bevy_picture_tour::tour
+
+#import bevy_pbr::mesh_view_bindings::view
+
+const VIEW_ROWS: i32 = 8;
+const COMPONENT_ROW: i32 = 8;
+const TEXELS_PER_COMPONENT: i32 = 4;
+const LEAST_DEPTH: f32 = 1e-3;
+
+const WALL: f32 = 0.0;
+const LEVEL: f32 = 1.0;
+const INFINITE: f32 = 2.0;
+
+struct TourUniform {
+    // Columns of the matrix from a tour-space direction to homogeneous picture pixels.
+    picture_from_x: vec4<f32>,
+    picture_from_y: vec4<f32>,
+    picture_from_z: vec4<f32>,
+    // The picture's camera (tour space); w: the component's index.
+    eye: vec4<f32>,
+    // The texture map's first pixel and its size, picture pixels.
+    layer: vec4<f32>,
+    // x: 1 where the mesh stands for infinity, y: most coverage that is dropped (0.5 in depth passes, else below 0).
+    flags: vec4<f32>,
+}
+
+struct Component {
+    kind: f32,
+    // Wall: normal.xy · (x, z) = offset. Level: offset is the height.
+    normal: vec2<f32>,
+    offset: f32,
+    // Wall: low and high along the contact line, low and high y. Level: low and high x, low and high z.
+    extent: vec4<f32>,
+    // The reflection map's first pixel and size, picture pixels.
+    layer: vec4<f32>,
+    // Its place in the atlas (xy, texels), its scale (z, texels per picture pixel), 1 if there is one (w).
+    atlas: vec4<f32>,
+}
+
+struct Ray {
+    origin: vec3<f32>,
+    direction: vec3<f32>,
+}
+
+// The row of the records that belongs to the view being drawn: the one whose world_from_view is nearest to it.
+fn view_row(records: texture_2d<f32>) -> i32 {
+    var best = 0;
+    var least = 1e30;
+    for (var row = 0; row < VIEW_ROWS; row++) {
+        // Unused rows are marked by a negative count.
+        if textureLoad(records, vec2(5, row), 0).w < 0.0 {
+            continue;
+        }
+        var difference = 0.0;
+        for (var column = 0; column < 4; column++) {
+            let apart = textureLoad(records, vec2(column, row), 0).xyz - view.world_from_view[column].xyz;
+            difference += dot(apart, apart);
+        }
+        if difference < least {
+            least = difference;
+            best = row;
+        }
+    }
+    return best;
+}
+
+// The ray of tour space through a fragment.
+fn fragment_ray(records: texture_2d<f32>, row: i32, fragment: vec2<f32>) -> Ray {
+    let viewport = view.main_pass_viewport;
+    let ndc = (fragment - viewport.xy) / viewport.zw * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
+    let near = view.view_from_clip * vec4(ndc, 1.0, 1.0);
+    let in_view = near.xyz / near.w;
+    let direction = textureLoad(records, vec2(4, row), 0).xyz * in_view.x
+        + textureLoad(records, vec2(5, row), 0).xyz * in_view.y
+        + textureLoad(records, vec2(6, row), 0).xyz * in_view.z;
+    return Ray(textureLoad(records, vec2(7, row), 0).xyz, normalize(direction));
+}
+
+fn component(records: texture_2d<f32>, index: i32) -> Component {
+    let first = index * TEXELS_PER_COMPONENT;
+    let plane = textureLoad(records, vec2(first, COMPONENT_ROW), 0);
+    return Component(
+        plane.x,
+        plane.yz,
+        plane.w,
+        textureLoad(records, vec2(first + 1, COMPONENT_ROW), 0),
+        textureLoad(records, vec2(first + 2, COMPONENT_ROW), 0),
+        textureLoad(records, vec2(first + 3, COMPONENT_ROW), 0),
+    );
+}
+
+// Distance along the ray to the component's unbounded plane; negative or infinite for a miss.
+fn meet_plane(found: Component, ray: Ray) -> f32 {
+    if found.kind == LEVEL {
+        return (found.offset - ray.origin.y) / ray.direction.y;
+    }
+    return (found.offset - dot(found.normal, ray.origin.xz)) / dot(found.normal, ray.direction.xz);
+}
+
+fn contains(found: Component, point: vec3<f32>) -> bool {
+    var place = vec2(dot(vec2(found.normal.y, -found.normal.x), point.xz), point.y);
+    if found.kind == LEVEL {
+        place = point.xz;
+    }
+    return all(place >= found.extent.xz) && all(place <= found.extent.yw);
+}
+
+// Where a direction from the picture's camera is in the picture, pixels.
+fn see_far(tour: TourUniform, direction: vec3<f32>) -> vec2<f32> {
+    let seen = tour.picture_from_x.xyz * direction.x
+        + tour.picture_from_y.xyz * direction.y
+        + tour.picture_from_z.xyz * direction.z;
+    return seen.xy / max(seen.z, LEAST_DEPTH);
+}
+
+// Where a point is in the picture, pixels.
+fn see(tour: TourUniform, point: vec3<f32>) -> vec2<f32> {
+    return see_far(tour, point - tour.eye.xyz);
+}
+
+// Brings a point within 1/32 pixel of a pixel center to that center.
+fn snap(point: vec2<f32>) -> vec2<f32> {
+    let center = floor(point) + 0.5;
+    return select(point, center, abs(point - center) < vec2(1.0 / 32.0));
+}
+
+fn mirror(point: vec3<f32>) -> vec3<f32> {
+    return vec3(point.x, -point.y, point.z);
+}

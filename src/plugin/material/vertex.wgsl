@@ -1,0 +1,30 @@
+// Places a tour's quad and finds the view's row of the records once a vertex.
+
+#define_import_path bevy_picture_tour::vertex
+
+#import bevy_pbr::{mesh_functions, view_transformations::position_world_to_clip}
+#import bevy_picture_tour::tour::{TourUniform, view_row}
+
+struct Vertex {
+    @builtin(instance_index) instance_index: u32,
+    @location(0) position: vec3<f32>,
+}
+
+struct TourVertex {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(flat) row: i32,
+}
+
+fn place(vertex: Vertex, tour: TourUniform, records: texture_2d<f32>) -> TourVertex {
+    var out: TourVertex;
+    out.row = view_row(records);
+    if tour.flags.x > 0.5 {
+        // Infinity fills the view, behind everything (reverse z).
+        out.position = vec4(vertex.position.xy, 0.0, 1.0);
+        return out;
+    }
+    let world_from_local = mesh_functions::get_world_from_local(vertex.instance_index);
+    let world = mesh_functions::mesh_position_local_to_world(world_from_local, vec4(vertex.position, 1.0));
+    out.position = position_world_to_clip(world.xyz);
+    return out;
+}

@@ -1,0 +1,65 @@
+//! The Bevy plugin: tours as assets and entities, their materials, cameras and per-frame systems.
+//!
+//! Everything a frame does happens in the steps of [`PictureTourSystems`]; games put their own systems between them.
+
+mod asset;
+mod atlas;
+mod camera;
+mod load;
+mod material;
+mod records;
+mod sort;
+mod spawn;
+mod views;
+
+pub use asset::{TourAsset, TourLoadError};
+pub use camera::{Guide, TourCamera, TourCameraState, TourPath, TourProjection};
+pub use load::{PictureTour, TourFailed, TourReady};
+pub use material::ColorPolicy;
+pub use spawn::{SolvedTour, TourPart};
+
+use bevy::prelude::*;
+use bevy::transform::TransformSystems;
+
+/// Adds tours to a game. Needs Bevy's default plugins (or assets, rendering and PBR materials).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PictureTourPlugin;
+
+/// The steps of a frame, in this order, in `Update`.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PictureTourSystems {
+    /// Takes over finished tours; reads keys, pointer, touch and gamepad into what each camera wishes. Set
+    /// [`TourCamera::listens`] before it.
+    Input,
+    /// Moves wind, water and floating bodies on by whole steps.
+    Simulate,
+    /// Moves cameras and bodies. Change a [`TourCameraState`]'s pose after it to have the last word.
+    Move,
+    /// Writes transforms from poses; materials follow after Bevy has propagated transforms.
+    Upload,
+}
+
+impl Plugin for PictureTourPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_plugins((material::plugin, sort::plugin, load::plugin));
+        app.configure_sets(
+            Update,
+            (
+                PictureTourSystems::Input,
+                PictureTourSystems::Simulate,
+                PictureTourSystems::Move,
+                PictureTourSystems::Upload,
+            )
+                .chain(),
+        );
+        app.add_systems(
+            Update,
+            (
+                camera::read_devices.in_set(PictureTourSystems::Input),
+                camera::move_cameras.in_set(PictureTourSystems::Move),
+                camera::place_cameras.in_set(PictureTourSystems::Upload),
+            ),
+        );
+        app.add_systems(PostUpdate, views::look_at_tours.after(TransformSystems::Propagate));
+    }
+}

@@ -1,0 +1,232 @@
+//! An assembled tour as entities: one named child a component, one for the water, all gone with the root.
+
+use std::sync::Arc;
+
+use bevy::asset::RenderAssetUsages;
+use bevy::camera::visibility::{NoFrustumCulling, RenderLayers};
+use bevy::image::ImageSampler;
+use bevy::mesh::{Indices, PrimitiveTopology};
+use bevy::prelude::*;
+use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
+
+use super::atlas::{self, Place};
+use super::material::{ColorPolicy, TourSurfaceMaterial, TourUniform, TourWaterMaterial};
+use super::records::Records;
+use crate::assemble::AssembledTour;
+use crate::maps::Layer;
+use crate::scene::Surface;
+
+/// What was solved and built for a tour: parameters, report, scene and maps. On the tour's entity once it is ready.
+#[derive(Component, Clone, Debug, Deref)]
+pub struct SolvedTour(pub Arc<AssembledTour>);
+
+/// What a tour's child stands for.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TourPart {
+    /// The water's surface.
+    Water,
+    /// The component of this index in the scene.
+    Component(usize),
+}
+
+/// The mesh that writes a part's depth after all parts are drawn.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct DepthPass;
+
+/// What the plugin keeps for a tour that is shown.
+#[derive(Component, Debug)]
+pub(super) struct ShownTour {
+    pub records: Records,
+    pub image: Handle<Image>,
+    /// Children, for a clean replacement.
+    pub parts: Vec<Entity>,
+}
+
+/// The assets a tour is spawned into.
+#[derive(bevy::ecs::system::SystemParam)]
+pub(super) struct TourAssets<'w> {
+    images: ResMut<'w, Assets<Image>>,
+    meshes: ResMut<'w, Assets<Mesh>>,
+    surfaces: ResMut<'w, Assets<TourSurfaceMaterial>>,
+    waters: ResMut<'w, Assets<TourWaterMaterial>>,
+    device: Option<Res<'w, bevy::render::renderer::RenderDevice>>,
+}
+
+/// What every device that Bevy runs on can hold.
+const SMALLEST_LIMIT: u32 = 2048;
+
+/// The water and an infinite background reach this far, in background distances, as the background's own wall does.
+const REACH: f32 = 60.0;
+
+/// Replaces what is shown of a tour.
+pub(super) fn show(
+    commands: &mut Commands,
+    assets: &mut TourAssets,
+    root: Entity,
+    tour: Arc<AssembledTour>,
+    policy: ColorPolicy,
+    layers: Option<&RenderLayers>,
+    before: Option<&ShownTour>,
+) {
+    for &part in before.iter().flat_map(|shown| &shown.parts) {
+        commands.entity(part).try_despawn();
+    }
+    let largest = assets.device.as_ref().map_or(SMALLEST_LIMIT, |device| device.limits().max_texture_dimension_2d);
+    let scene = &tour.scene;
+    let maps: Vec<Option<&Layer>> = tour.maps.components.iter().map(|maps| maps.reflection.as_ref()).collect();
+    let atlas = atlas::pack(&maps, largest);
+    if atlas.scale < 1.0 {
+        warn!(
+            "the reflection maps are larger than this device's textures ({largest} px): they are scaled to {:.0} %, \
+             and the first view is no longer the picture to the code",
+            100.0 * atlas.scale
+        );
+    }
+    let mut records = Records::new();
+    for (index, component) in scene.components.iter().enumerate() {
+        let map: Option<(&Layer, Place)> = maps[index].zip(atlas.places[index]);
+        records.set_component(index, &component.surface, map);
+    }
+    let image = assets.images.add(records.image());
+    let mut spawner = Spawner { commands, root, layers, parts: Vec::new() };
+
+    for (index, component) in scene.components.iter().enumerate() {
+        let layer = &tour.maps.components[index].texture;
+        let infinite = component.surface == Surface::Infinity;
+        let (origin, size) = (layer.origin.as_vec2(), layer.size.as_vec2());
+        let placed = Vec4::new(origin.x, origin.y, size.x, size.y);
+        let uniform = TourUniform::new(scene, index, placed, infinite);
+        let material = TourSurfaceMaterial {
+            tour: uniform,
+            records: image.clone(),
+            texture_map: assets.images.add(texture(layer, largest)),
+            policy,
+            depth_only: false,
+        };
+        let depth =
+            TourSurfaceMaterial { tour: uniform.depth_only(), depth_only: true, ..material.clone() };
+        let mesh = assets.meshes.add(quad(corners(&component.surface)));
+        let depth = assets.surfaces.add(depth);
+        let material = assets.surfaces.add(material);
+        spawner.part(&component.name, TourPart::Component(index), mesh, material, depth, infinite);
+    }
+    if scene.water {
+        let uniform = TourUniform::new(scene, 0, Vec4::ONE, false);
+        let size = Extent3d { width: atlas.size.x, height: atlas.size.y, depth_or_array_layers: 1 };
+        let material = TourWaterMaterial {
+            tour: uniform,
+            records: image.clone(),
+            atlas: assets.images.add(image_of(size, atlas.texels.as_flattened().to_vec())),
+            policy,
+            depth_only: false,
+        };
+        let depth = TourWaterMaterial { tour: uniform.depth_only(), depth_only: true, ..material.clone() };
+        let reach = match scene.background().surface {
+            Surface::Wall(wall) => REACH * wall.foot.length() as f32,
+            _ => 1e4,
+        };
+        let mesh = assets.meshes.add(quad([
+            Vec3::new(-reach, 0.0, -reach),
+            Vec3::new(reach, 0.0, -reach),
+            Vec3::new(-reach, 0.0, reach),
+            Vec3::new(reach, 0.0, reach),
+        ]));
+        let depth = assets.waters.add(depth);
+        let material = assets.waters.add(material);
+        spawner.part("water", TourPart::Water, mesh, material, depth, false);
+    }
+    let parts = spawner.parts;
+    commands.entity(root).insert((SolvedTour(tour), ShownTour { records, image, parts }));
+}
+
+struct Spawner<'a, 'w, 's> {
+    commands: &'a mut Commands<'w, 's>,
+    root: Entity,
+    layers: Option<&'a RenderLayers>,
+    parts: Vec<Entity>,
+}
+
+impl Spawner<'_, '_, '_> {
+    fn part<M: Material>(
+        &mut self,
+        name: &str,
+        part: TourPart,
+        mesh: Handle<Mesh>,
+        material: Handle<M>,
+        depth: Handle<M>,
+        infinite: bool,
+    ) {
+        let bundle = (Mesh3d(mesh), Transform::default(), Visibility::default());
+        let shown = self
+            .commands
+            .spawn((Name::new(name.to_owned()), part, bundle.clone(), MeshMaterial3d(material), ChildOf(self.root)))
+            .id();
+        let solid = self
+            .commands
+            .spawn((Name::new(format!("{name} (depth)")), part, DepthPass, bundle, MeshMaterial3d(depth), ChildOf(shown)))
+            .id();
+        for entity in [shown, solid] {
+            let mut entity = self.commands.entity(entity);
+            if let Some(layers) = self.layers {
+                entity.insert(layers.clone());
+            }
+            if infinite {
+                entity.insert(NoFrustumCulling);
+            }
+        }
+        self.parts.push(shown);
+    }
+}
+
+/// Two triangles through four corners: low left, low right, high left, high right.
+fn quad(corners: [Vec3; 4]) -> Mesh {
+    Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::default())
+        .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, corners.map(|corner| corner.to_array()).to_vec())
+        .with_inserted_indices(Indices::U16(vec![0, 1, 2, 2, 1, 3]))
+}
+
+/// The corners of a surface in the tour's space; infinity fills the view in clip space.
+fn corners(surface: &Surface) -> [Vec3; 4] {
+    match surface {
+        Surface::Wall(wall) => {
+            let [[a, b], [c, d]] = wall.rise.map(|y| wall.span.map(|s| wall.point(s, y).as_vec3()));
+            [a, b, c, d]
+        }
+        Surface::Level(level) => {
+            let (low, high, y) = (level.low.as_vec2(), level.high.as_vec2(), level.height as f32);
+            [
+                Vec3::new(low.x, y, low.y),
+                Vec3::new(high.x, y, low.y),
+                Vec3::new(low.x, y, high.y),
+                Vec3::new(high.x, y, high.y),
+            ]
+        }
+        Surface::Infinity => [
+            Vec3::new(-1.0, -1.0, 0.0),
+            Vec3::new(1.0, -1.0, 0.0),
+            Vec3::new(-1.0, 1.0, 0.0),
+            Vec3::new(1.0, 1.0, 0.0),
+        ],
+    }
+}
+
+/// A layer as a texture, scaled down where the device cannot hold it.
+fn texture(layer: &Layer, largest: u32) -> Image {
+    let longest = layer.size.max_element();
+    let scale = if longest > largest { largest as f32 / longest as f32 } else { 1.0 };
+    if scale < 1.0 {
+        warn!("a layer of {} px is scaled to {:.0} %: the device's textures end at {largest} px", longest, 100.0 * scale);
+    }
+    let (size, texels) = atlas::scaled_layer(layer, scale);
+    image_of(
+        Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
+        texels.as_flattened().to_vec(),
+    )
+}
+
+fn image_of(size: Extent3d, data: Vec<u8>) -> Image {
+    let format = TextureFormat::Rgba8UnormSrgb;
+    let mut image = Image::new(size, TextureDimension::D2, data, format, RenderAssetUsages::RENDER_WORLD);
+    image.sampler = ImageSampler::linear();
+    image
+}

@@ -1,0 +1,129 @@
+//! Once a frame: which camera sees each tour from where, and in which order its parts are drawn.
+//!
+//! One order serves drawing, the water's shader and (the same function) the reference tracer: architecture.md,
+//! decision 6. Poses go from the game's world to the tour's in f64.
+
+use bevy::math::{DAffine3, DMat4, DVec3};
+use bevy::platform::collections::HashMap;
+use bevy::prelude::*;
+use bevy::render::extract_resource::ExtractResource;
+
+use super::camera::TourCameraState;
+use super::records::{MAX_VIEWS, ViewRecord};
+use super::spawn::{DepthPass, ShownTour, SolvedTour, TourPart};
+use crate::scene::Surface;
+use crate::scene::TourScene;
+
+/// Per camera: the sort distance of each part's mesh, view depth as Bevy counts it (nearer is greater).
+#[derive(Resource, ExtractResource, Clone, Debug, Default)]
+pub(super) struct DrawOrder(pub HashMap<Entity, HashMap<Entity, f32>>);
+
+/// Writes every tour's records and the draw order.
+pub(super) fn look_at_tours(
+    mut tours: Query<(Entity, &GlobalTransform, &SolvedTour, &mut ShownTour)>,
+    cameras: Query<(Entity, &Camera, &GlobalTransform, Option<&TourCameraState>), With<Camera3d>>,
+    parts: Query<(&TourPart, Has<DepthPass>)>,
+    children: Query<&Children>,
+    mut images: ResMut<Assets<Image>>,
+    mut order: ResMut<DrawOrder>,
+) {
+    let mut new_order: HashMap<Entity, HashMap<Entity, f32>> = HashMap::default();
+    for (root, tour_transform, solved, mut shown) in &mut tours {
+        let tour_from_world = affine(tour_transform).inverse();
+        let mut views = Vec::new();
+        for (camera, settings, transform, state) in &cameras {
+            if !settings.is_active || views.len() == MAX_VIEWS {
+                continue;
+            }
+            // A camera that flies this tour knows its pose exactly; the game's f32 world would round it.
+            let exact = state.and_then(|state| state.pose_in(root));
+            let tour_from_view = exact.unwrap_or_else(|| tour_from_world * affine(transform));
+            if !tour_from_view.is_finite() {
+                continue;
+            }
+            let near_to_far = solved.scene.billboards_near_to_far(tour_from_view.translation);
+            let distances = new_order.entry(camera).or_default();
+            let scale = (affine(transform).matrix3.inverse() * affine(tour_transform).matrix3).x_axis.length();
+            let ranks = sort_distances(&solved.scene, &tour_from_view, &near_to_far, scale);
+            for &part in &shown.parts {
+                for entity in children.get(part).into_iter().flatten().copied().chain([part]) {
+                    if let Ok((part, depth)) = parts.get(entity) {
+                        distances.insert(entity, ranks.of(*part, depth));
+                    }
+                }
+            }
+            views.push(ViewRecord {
+                world_from_view: transform.to_matrix(),
+                tour_from_view,
+                near_to_far,
+                ground: solved.scene.ground(),
+            });
+        }
+        let shown = shown.bypass_change_detection();
+        let mut records = shown.records.clone();
+        records.set_views(&views);
+        if records != shown.records {
+            if let Some(mut image) = images.get_mut(&shown.image) {
+                image.data = Some(records.bytes());
+            }
+            shown.records = records;
+        }
+    }
+    order.0 = new_order;
+}
+
+fn affine(transform: &GlobalTransform) -> DAffine3 {
+    DAffine3::from_mat4(DMat4::from_cols_array(&transform.to_matrix().to_cols_array().map(f64::from)))
+}
+
+/// Sort distances in the order of drawing: water, background, ground, billboards far to near, then all depths.
+struct Ranks {
+    water: f32,
+    components: Vec<f32>,
+    depth: f32,
+}
+
+impl Ranks {
+    fn of(&self, part: TourPart, depth: bool) -> f32 {
+        match part {
+            _ if depth => self.depth,
+            TourPart::Water => self.water,
+            TourPart::Component(index) => self.components.get(index).copied().unwrap_or(self.water),
+        }
+    }
+}
+
+fn sort_distances(
+    scene: &TourScene,
+    tour_from_view: &DAffine3,
+    near_to_far: &[usize],
+    world_per_tour: f64,
+) -> Ranks {
+    let forward = -tour_from_view.matrix3.z_axis.normalize_or(DVec3::NEG_Z);
+    let depth = |surface: &Surface| match surface {
+        Surface::Wall(wall) => {
+            let [a, b] = wall.ends();
+            let center = DVec3::new(0.5 * (a.x + b.x), tour_from_view.translation.y, 0.5 * (a.y + b.y));
+            (center - tour_from_view.translation).dot(forward).max(0.0) * world_per_tour
+        }
+        Surface::Level(_) | Surface::Infinity => 1e6,
+    };
+    // Never nearer than what is drawn before: an item of the game's sorts into the gaps.
+    let background = depth(&scene.background().surface);
+    let mut last = -background as f32;
+    let mut next = |own: f64| {
+        last = (-own as f32).max(last + 1e-4 * last.abs().max(1.0));
+        last
+    };
+    let mut components = vec![0.0; scene.components.len()];
+    let water = next(background);
+    components[0] = next(background);
+    if let Some(ground) = scene.ground() {
+        components[ground] = next(background);
+    }
+    for &index in near_to_far.iter().rev() {
+        components[index] = next(depth(&scene.components[index].surface));
+    }
+    let depth = next(f64::INFINITY);
+    Ranks { water, components, depth }
+}

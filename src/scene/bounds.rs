@@ -1,0 +1,58 @@
+//! Where the picture still holds: how far a camera may go before what it shows is mostly made up.
+
+use glam::DVec3;
+
+use super::{Role, SceneComponent, ScenePlan, Surface};
+
+/// A box in the world that keeps a visitor's camera where the picture still holds.
+///
+/// It grows with the distance of the nearest billboard: parallax uncovers what the picture never saw in proportion to
+/// the move over that distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraBounds {
+    /// Lowest corner, metres.
+    pub low: DVec3,
+    /// Highest corner, metres.
+    pub high: DVec3,
+}
+
+/// Share of the nearest billboard's distance that a camera may go sideways.
+const SIDEWAYS: f64 = 0.35;
+/// Share of it that it may go forward: nearer, a billboard is seen to be flat.
+const FORWARD: f64 = 0.6;
+/// Share of it that it may go back: the frame's border comes into sight.
+const BACK: f64 = 0.1;
+/// Lowest and highest camera, as shares of the height the picture was taken from.
+const HEIGHT: [f64; 2] = [0.35, 2.2];
+/// Without billboards, the share of the background's distance that stands for the nearest one.
+const EMPTY_SCENE: f64 = 0.15;
+
+impl CameraBounds {
+    /// The bounds of a scene's components.
+    pub(super) fn of(plan: &ScenePlan, components: &[SceneComponent]) -> Self {
+        let at = plan.camera.pose.position;
+        let distance = if plan.background_distance.is_finite() { plan.background_distance } else { 100.0 };
+        let nearest = components
+            .iter()
+            .filter_map(|component| match (&component.role, &component.surface) {
+                (Role::Billboard, Surface::Wall(wall)) => {
+                    wall.ends().iter().map(|end| at.z - end.y).min_by(f64::total_cmp)
+                }
+                _ => None,
+            })
+            .fold(EMPTY_SCENE * distance, f64::min)
+            .max(0.5);
+        let ground = plan.ground_height.unwrap_or(0.0);
+        let low = ground + HEIGHT[0] * (at.y - ground);
+        Self {
+            low: DVec3::new(at.x - SIDEWAYS * nearest, low, at.z - FORWARD * nearest),
+            high: DVec3::new(at.x + SIDEWAYS * nearest, HEIGHT[1] * at.y, at.z + BACK * nearest),
+        }
+    }
+
+    /// The nearest point inside.
+    #[must_use]
+    pub fn clamp(&self, position: DVec3) -> DVec3 {
+        position.clamp(self.low, self.high)
+    }
+}

@@ -1,0 +1,241 @@
+//! From what was solved and marked to planes in metres.
+//!
+//! Every component gets a place, whatever was marked: what cannot be placed (a foot at the horizon) goes to just in
+//! front of the background, with a remark.
+
+use glam::{DVec2, DVec3, IVec2, UVec2};
+
+use super::{CameraBounds, Level, Role, SceneComponent, Surface, TourScene, Wall};
+use crate::camera::PinholeCamera;
+use crate::camera::Ray;
+use crate::picture::PicturePoint;
+use crate::tour::Support;
+
+/// The most components a tour may have: what one row of the water's records holds.
+pub const MAX_COMPONENTS: usize = 64;
+
+/// Contact lines whose ends differ less than this in depth stand frontally (notes §5.2): marks are not finer.
+const FRONTAL_WITHIN: f64 = 0.05;
+
+/// How far inside the background's distance a component is kept, as a share of it.
+const BEFORE_BACKGROUND: f64 = 0.98;
+
+/// Margin of a billboard's rectangle around its mask's box, per pixel of picture width.
+const MARGIN: f64 = 0.02;
+
+/// The background's walls reach this many of its distances to each side and up: past any sensible view.
+const BACKGROUND_REACH: f64 = 60.0;
+
+/// By how many pixels a billboard's rectangle is wider than its mask's box: room for its mirror image, which is that of
+/// a body and not of a flat mask.
+#[must_use]
+pub fn margin_px(picture: UVec2) -> i32 {
+    (MARGIN * f64::from(picture.x)).ceil() as i32
+}
+
+/// A billboard to be placed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BillboardPlan {
+    /// Its name in the tour file.
+    pub name: String,
+    /// What its contact line lies on.
+    pub support: Support,
+    /// Left and right foot in the picture.
+    pub contact: [PicturePoint; 2],
+    /// The mask's box in pixels, low corner and high corner (exclusive).
+    pub mask_box: [IVec2; 2],
+}
+
+/// Everything [`build`] needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScenePlan {
+    /// The camera that took the picture, at (0, h, 0).
+    pub camera: PinholeCamera,
+    /// Whether there is water at y = 0.
+    pub water: bool,
+    /// Height of the ground above the water, metres, if there is ground.
+    pub ground_height: Option<f64>,
+    /// Distance of the background along −z, metres; infinite when it shows no parallax.
+    pub background_distance: f64,
+    /// What stands in the scene, at most [`MAX_COMPONENTS`] with background and ground.
+    pub billboards: Vec<BillboardPlan>,
+}
+
+/// Places every plane; the remarks say what had to be moved.
+#[must_use]
+pub fn build(plan: &ScenePlan) -> (TourScene, Vec<String>) {
+    let mut remarks = Vec::new();
+    let distance = plan.background_distance;
+    let background = if distance.is_finite() {
+        Surface::Wall(Wall {
+            foot: DVec2::new(0.0, -distance),
+            along: DVec2::X,
+            span: [-BACKGROUND_REACH * distance, BACKGROUND_REACH * distance],
+            rise: [-BACKGROUND_REACH * distance, BACKGROUND_REACH * distance],
+        })
+    } else {
+        Surface::Infinity
+    };
+    let component = |name: &str, role, surface| SceneComponent { name: name.to_owned(), role, surface };
+    let mut components = vec![component("background", Role::Background, background)];
+    if let Some(height) = plan.ground_height {
+        let level = Surface::Level(ground_level(&plan.camera, height, distance));
+        components.push(component("ground", Role::Ground, level));
+    }
+    for billboard in &plan.billboards {
+        if components.len() == MAX_COMPONENTS {
+            remarks.push(format!(
+                "\"{}\" and what follows is left out: a scene holds at most {MAX_COMPONENTS} planes",
+                billboard.name
+            ));
+            break;
+        }
+        let height = match billboard.support {
+            Support::Water => 0.0,
+            Support::Ground => plan.ground_height.unwrap_or(0.0),
+        };
+        let wall = billboard_wall(&plan.camera, billboard, height, distance, &mut remarks);
+        components.push(component(&billboard.name, Role::Billboard, Surface::Wall(wall)));
+    }
+    let bounds = CameraBounds::of(plan, &components);
+    (TourScene { camera: plan.camera, water: plan.water, components, bounds }, remarks)
+}
+
+/// The ground from the picture's foreground to the background.
+fn ground_level(camera: &PinholeCamera, height: f64, background_distance: f64) -> Level {
+    let far = if background_distance.is_finite() { background_distance } else { 1e4 };
+    let size = camera.intrinsics.size.as_dvec2();
+    // The lowest ray of the picture says where the ground comes into sight; it is kept from there a bit nearer.
+    let nearest = [0.0, size.x]
+        .into_iter()
+        .filter_map(|x| {
+            let ray = camera.ray(PicturePoint::new(x, size.y));
+            let t = (height - ray.origin.y) / ray.direction.y;
+            (t > 0.0 && t.is_finite()).then(|| -ray.at(t).z)
+        })
+        .fold(far, f64::min);
+    let reach = far * size.x / camera.intrinsics.focal_px;
+    Level { height, low: DVec2::new(-reach, -far), high: DVec2::new(reach, -0.25 * nearest) }
+}
+
+/// The upright rectangle through a contact line that covers the mask's whole box (architecture.md, decision 6).
+fn billboard_wall(
+    camera: &PinholeCamera,
+    plan: &BillboardPlan,
+    height: f64,
+    background_distance: f64,
+    remarks: &mut Vec<String>,
+) -> Wall {
+    let farthest = if background_distance.is_finite() { BEFORE_BACKGROUND * background_distance } else { 1e4 };
+    let feet = plan.contact.map(|foot| {
+        let ray = camera.ray(foot);
+        let t = (height - ray.origin.y) / ray.direction.y;
+        let depth = -(ray.at(t).z - camera.pose.position.z);
+        let placed = if t.is_finite() && t > 0.0 && depth <= farthest {
+            t
+        } else {
+            remarks.push(format!(
+                "\"{}\" would stand at or beyond the background: its foot {foot} is moved to {farthest:.1} m; \
+                 lower its contact line or mark the background farther away",
+                plan.name
+            ));
+            -farthest / ray.direction.z
+        };
+        let point = ray.at(placed);
+        DVec2::new(point.x, point.z)
+    });
+    let [left, right] = feet;
+    let mean = 0.5 * (left.y + right.y);
+    let yawed = ((left.y - right.y) / mean).abs() > FRONTAL_WITHIN && left.distance(right) > 1e-6;
+    let (foot, along) = if yawed {
+        (left, (right - left).normalize())
+    } else {
+        (DVec2::new(0.5 * (left.x + right.x), mean), DVec2::X)
+    };
+    let unbounded = [f64::NEG_INFINITY, f64::INFINITY];
+    let plane = Wall { foot, along, span: unbounded, rise: unbounded };
+    let [low, high] = plan.mask_box.map(|corner| corner.as_dvec2());
+    let mut span = [f64::INFINITY, f64::NEG_INFINITY];
+    let mut rise = span;
+    let margin = f64::from(margin_px(camera.intrinsics.size));
+    for x in [low.x - margin, high.x + margin] {
+        for y in [low.y - margin, high.y + margin] {
+            if let Some(point) = meet_within(&plane, camera.ray(PicturePoint::new(x, y)), farthest) {
+                let s = plane.along_of(point);
+                span = [span[0].min(s), span[1].max(s)];
+                rise = [rise[0].min(point.y), rise[1].max(point.y)];
+            }
+        }
+    }
+    Wall { foot, along, span, rise }
+}
+
+/// Where a ray meets a wall's plane; past `farthest` (or never) the ray's point at that depth is brought to the plane,
+/// which only happens to walls that recede to their own vanishing point.
+fn meet_within(plane: &Wall, ray: Ray, farthest: f64) -> Option<DVec3> {
+    let limit = 2.0 * farthest / -ray.direction.z;
+    let t = plane.meet_plane(ray).unwrap_or(limit).min(limit);
+    let point = ray.at(t);
+    point.is_finite().then(|| plane.point(plane.along_of(point), point.y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{CameraPose, Intrinsics};
+
+    fn camera() -> PinholeCamera {
+        PinholeCamera {
+            intrinsics: Intrinsics {
+                focal_px: 800.0,
+                principal: PicturePoint::new(480.0, 270.0),
+                size: UVec2::new(960, 540),
+            },
+            pose: CameraPose::from_angles(DVec3::new(0.0, 2.0, 0.0), 0.0, 0.0, 0.0),
+        }
+    }
+
+    fn plan(contact: [PicturePoint; 2]) -> ScenePlan {
+        ScenePlan {
+            camera: camera(),
+            water: true,
+            ground_height: Some(0.5),
+            background_distance: 120.0,
+            billboards: vec![BillboardPlan {
+                name: "boat".into(),
+                support: Support::Water,
+                contact,
+                mask_box: [IVec2::new(320, 290), IVec2::new(560, 410)],
+            }],
+        }
+    }
+
+    #[test]
+    fn a_foot_on_the_water_is_where_its_ray_meets_the_water() {
+        let (scene, remarks) =
+            build(&plan([PicturePoint::new(320.0, 403.333_333), PicturePoint::new(560.0, 403.333_333)]));
+        assert!(remarks.is_empty(), "{remarks:?}");
+        let Surface::Wall(wall) = scene.components[2].surface else { panic!("a billboard is a wall") };
+        assert!((wall.foot.y + 12.0).abs() < 1e-4, "boat at {} m instead of 12", -wall.foot.y);
+        // The box's bottom row lies 6.7 px under the contact line and has 20 px of margin; at 12 m and 800 px: 0.4 m.
+        assert!((wall.rise[0] + 26.667 * 12.0 / 800.0).abs() < 0.001, "bottom at {} m", wall.rise[0]);
+        assert!((wall.span[1] - wall.span[0] - 280.0 * 12.0 / 800.0).abs() < 1e-6, "{:?}", wall.span);
+    }
+
+    #[test]
+    fn a_foot_above_the_horizon_goes_before_the_background_and_says_so() {
+        let (scene, remarks) = build(&plan([PicturePoint::new(320.0, 250.0), PicturePoint::new(560.0, 250.0)]));
+        let Surface::Wall(wall) = scene.components[2].surface else { panic!("a billboard is a wall") };
+        assert!((wall.foot.y + 117.6).abs() < 1e-9, "{} m", wall.foot.y);
+        assert!(remarks[0].contains("boat"), "{remarks:?}");
+    }
+
+    #[test]
+    fn feet_at_different_depths_make_a_yawed_wall() {
+        let (scene, _) = build(&plan([PicturePoint::new(320.0, 403.333_333), PicturePoint::new(560.0, 350.0)]));
+        let Surface::Wall(wall) = scene.components[2].surface else { panic!("a billboard is a wall") };
+        let ends = [-12.0, -20.0];
+        let (left, right) = (wall.foot, wall.foot + wall.along * DVec2::new(4.4, 8.0).length());
+        assert!((left.y - ends[0]).abs() < 1e-4 && (right.y - ends[1]).abs() < 1e-3, "{left} to {right}");
+    }
+}

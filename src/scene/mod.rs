@@ -1,0 +1,81 @@
+//! The scene in metres: the framework (water, ground, background) and the billboards that stand in it.
+//!
+//! World: x right, y up, −z into the picture; resting water at y = 0; the picture was taken from (0, h, 0). The water
+//! is the plane y = 0 itself and no component; everything else is one. Component 0 is always the background, the last
+//! layer: a ray that misses everything sees it at infinity.
+
+mod bounds;
+mod build;
+mod order;
+mod surface;
+
+pub use bounds::CameraBounds;
+pub use build::{BillboardPlan, MAX_COMPONENTS, ScenePlan, build, margin_px};
+pub use order::near_to_far;
+pub use surface::{Level, Surface, Wall, mirror};
+
+use crate::camera::PinholeCamera;
+
+/// What a component is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The last layer: opaque wherever it stands above the water.
+    Background,
+    /// The land one could walk on, a level plane.
+    Ground,
+    /// Something that stands upright in the water or on the ground.
+    Billboard,
+}
+
+/// One plane of the scene with everything the picture shows on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneComponent {
+    /// The name in the tour file, "background" or "ground".
+    pub name: String,
+    /// What it is for.
+    pub role: Role,
+    /// Where it is.
+    pub surface: Surface,
+}
+
+/// Everything that is geometry: the picture's own camera and the planes it looks at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TourScene {
+    /// The camera that took the picture, at (0, h, 0); its size is the picture's.
+    pub camera: PinholeCamera,
+    /// Whether there is water at y = 0.
+    pub water: bool,
+    /// The background first, the ground (if any) second, then the billboards in the tour's order.
+    pub components: Vec<SceneComponent>,
+    /// Where a camera may go.
+    pub bounds: CameraBounds,
+}
+
+impl TourScene {
+    /// The background, the last layer.
+    #[must_use]
+    pub fn background(&self) -> &SceneComponent {
+        &self.components[0]
+    }
+
+    /// The ground's index, if there is any.
+    #[must_use]
+    pub fn ground(&self) -> Option<usize> {
+        self.components.iter().position(|component| component.role == Role::Ground)
+    }
+
+    /// The billboards' indices, near to far as seen from `position` (metres; only x and z matter).
+    #[must_use]
+    pub fn billboards_near_to_far(&self, position: glam::DVec3) -> Vec<usize> {
+        let walls: Vec<(usize, &Wall)> = self
+            .components
+            .iter()
+            .enumerate()
+            .filter_map(|(index, component)| match (&component.role, &component.surface) {
+                (Role::Billboard, Surface::Wall(wall)) => Some((index, wall)),
+                _ => None,
+            })
+            .collect();
+        near_to_far(&walls, glam::DVec2::new(position.x, position.z))
+    }
+}

@@ -1,0 +1,200 @@
+//! The reference ray tracer: the definition of right, and image comparison.
+//!
+//! The paper's rendering (its section on rendering; notes §8.1): billboards near to far, ground, background, water
+//! last; at the water the ray is mirrored and reads reflection maps instead of texture maps. Soft masks are composited
+//! in linear light; whatever a ray misses, it ends in the last layer, at infinity. Needs no engine and no GPU.
+
+pub mod compare;
+mod eye;
+mod water_surface;
+
+pub use water_surface::{StillWater, WaterPoint, WaterSurface};
+
+use eye::Eye;
+
+use glam::{DVec2, UVec2};
+use rayon::prelude::*;
+
+use crate::camera::PinholeCamera;
+use crate::camera::Ray;
+use crate::maps::Layer;
+use crate::maps::Maps;
+use crate::picture::Picture;
+use crate::picture::PicturePoint;
+use crate::picture::color::srgb_from_linear3;
+use crate::scene::Role;
+use crate::scene::Surface;
+use crate::scene::TourScene;
+use crate::scene::mirror;
+
+/// Less light than this is left behind a layer: half a display code cannot change any more.
+const OPAQUE: f32 = 1.0 / 512.0;
+
+/// A mirrored ray climbs at least this steeply; steep waves would send it under the water (notes §8.2).
+const LEAST_CLIMB: f64 = 1e-5;
+
+/// A scene with its maps, ready to be looked at.
+pub struct Reference<'a> {
+    scene: &'a TourScene,
+    maps: &'a Maps,
+    water: &'a dyn WaterSurface,
+    eye: Eye,
+}
+
+impl std::fmt::Debug for Reference<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Reference").field("scene", self.scene).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Reference<'a> {
+    /// A reference of still water.
+    #[must_use]
+    pub fn new(scene: &'a TourScene, maps: &'a Maps) -> Self {
+        Self::with_water(scene, maps, &StillWater)
+    }
+
+    /// A reference whose water has the given heights and normals.
+    #[must_use]
+    pub fn with_water(scene: &'a TourScene, maps: &'a Maps, water: &'a dyn WaterSurface) -> Self {
+        Self { scene, maps, water, eye: Eye::of(&scene.camera) }
+    }
+
+    /// Renders what `camera` sees, `samples` rays a pixel (at least 1; one goes through the pixel's center), on all
+    /// cores. Samples are averaged in linear light.
+    #[must_use]
+    pub fn render(&self, camera: &PinholeCamera, samples: u32) -> Picture {
+        let size = camera.intrinsics.size.max(UVec2::ONE);
+        let offsets = sample_offsets(samples);
+        let order = self.scene.billboards_near_to_far(camera.pose.position);
+        let ground = self.scene.ground();
+        let mut pixels = vec![[0_u8; 3]; size.x as usize * size.y as usize];
+        pixels.par_chunks_mut(size.x as usize).enumerate().for_each(|(row, pixels)| {
+            for (column, pixel) in pixels.iter_mut().enumerate() {
+                let corner = DVec2::new(column as f64, row as f64);
+                let mut sum = [0.0_f32; 3];
+                for &offset in &offsets {
+                    let color = self.look(camera.ray(PicturePoint(corner + offset)), &order, ground);
+                    for c in 0..3 {
+                        sum[c] += color[c];
+                    }
+                }
+                *pixel = srgb_from_linear3(sum.map(|x| x / offsets.len() as f32));
+            }
+        });
+        // The size is that of the pixels by construction.
+        Picture::new(size, pixels).unwrap_or_else(|_| unreachable!("rows of `size.x` pixels"))
+    }
+
+    /// The color along a ray of the world, linear light.
+    fn look(&self, ray: Ray, near_to_far: &[usize], ground: Option<usize>) -> [f32; 3] {
+        let mut light = Accumulated::default();
+        for &index in near_to_far.iter().chain(&ground).chain(&[0]) {
+            let component = &self.scene.components[index];
+            if component.surface == Surface::Infinity {
+                continue;
+            }
+            if let Some(t) = component.surface.meet(ray) {
+                let at = self.eye.see(ray.at(t));
+                light.add(self.maps.components[index].texture.sample(at));
+                if light.left < OPAQUE {
+                    return light.color;
+                }
+            }
+        }
+        let last = if self.scene.water && ray.direction.y < 0.0 {
+            self.mirrored(ray, near_to_far, ground)
+        } else {
+            let [r, g, b, _] = self.maps.components[0].texture.sample(self.eye.see_far(ray.direction));
+            [r, g, b]
+        };
+        light.add([last[0], last[1], last[2], 1.0]);
+        light.color
+    }
+
+    /// What the water shows to a ray that goes down to it.
+    fn mirrored(&self, ray: Ray, near_to_far: &[usize], ground: Option<usize>) -> [f32; 3] {
+        let mut at = ray.at(-ray.origin.y / ray.direction.y);
+        let mut water = self.water.at(DVec2::new(at.x, at.z));
+        if water.height != 0.0 {
+            // One step towards where the ray meets the displaced surface (notes §8.3).
+            at = ray.at((water.height - ray.origin.y) / ray.direction.y);
+            water = self.water.at(DVec2::new(at.x, at.z));
+        }
+        let incoming = ray.direction.normalize();
+        let mut direction = incoming - 2.0 * incoming.dot(water.normal) * water.normal;
+        direction.y = direction.y.max(LEAST_CLIMB);
+        let up = Ray { origin: at, direction };
+
+        let mut light = Accumulated::default();
+        let mut ground = ground.and_then(|index| self.mirror_hit(index, up));
+        for &index in near_to_far {
+            let Some((t, texel)) = self.mirror_hit(index, up) else { continue };
+            if let Some((_, texel)) = ground.take_if(|(t_ground, _)| *t_ground < t) {
+                light.add(texel);
+            }
+            light.add(texel);
+            if light.left < OPAQUE {
+                return light.color;
+            }
+        }
+        if let Some((_, texel)) = ground {
+            light.add(texel);
+        }
+        let Some(last) = &self.maps.components[0].reflection else { return light.color };
+        let seen = match self.scene.background().surface {
+            Surface::Infinity => None,
+            surface => surface.meet(up).map(|t| self.eye.see(mirror(up.at(t)))),
+        };
+        let [r, g, b, _] = last.sample(seen.unwrap_or_else(|| self.eye.see_far(mirror(up.direction))));
+        light.add([r, g, b, 1.0]);
+        light.color
+    }
+
+    /// Where a mirrored ray meets a component above the water, and the texel of its reflection map there.
+    fn mirror_hit(&self, index: usize, up: Ray) -> Option<(f64, [f32; 4])> {
+        let layer: &Layer = self.maps.components[index].reflection.as_ref()?;
+        let component = &self.scene.components[index];
+        debug_assert!(component.role != Role::Background, "the background is the last layer");
+        let t = component.surface.meet(up)?;
+        let point = up.at(t);
+        (point.y >= 0.0).then(|| (t, layer.sample(self.eye.see(mirror(point)))))
+    }
+}
+
+/// Front-to-back compositing in linear light.
+struct Accumulated {
+    color: [f32; 3],
+    left: f32,
+}
+
+impl Default for Accumulated {
+    fn default() -> Self {
+        Self { color: [0.0; 3], left: 1.0 }
+    }
+}
+
+impl Accumulated {
+    /// Adds a straight-alpha texel behind what is there.
+    fn add(&mut self, texel: [f32; 4]) {
+        let weight = self.left * texel[3];
+        for c in 0..3 {
+            self.color[c] += weight * texel[c];
+        }
+        self.left -= weight;
+    }
+}
+
+/// Offsets in the pixel: its center for one sample, a square grid for square numbers, else Roberts' R2 sequence.
+fn sample_offsets(samples: u32) -> Vec<DVec2> {
+    let side = f64::from(samples.max(1)).sqrt().round();
+    if side * side == f64::from(samples.max(1)) {
+        let steps = side as u32;
+        return (0..steps * steps)
+            .map(|i| DVec2::new(f64::from(i % steps) + 0.5, f64::from(i / steps) + 0.5) / side)
+            .collect();
+    }
+    const PLASTIC: f64 = 1.324_717_957_244_746;
+    let step = DVec2::new(1.0 / PLASTIC, 1.0 / (PLASTIC * PLASTIC));
+    (0..samples).map(|i| (DVec2::splat(0.5) + step * f64::from(i)).fract()).collect()
+}
