@@ -18,6 +18,7 @@ pub use load::{PictureTour, TourFailed, TourReady};
 pub use material::ColorPolicy;
 pub use spawn::{SolvedTour, TourPart};
 
+use bevy::asset::AssetEventSystems;
 use bevy::prelude::*;
 use bevy::transform::TransformSystems;
 
@@ -60,6 +61,10 @@ impl Plugin for PictureTourPlugin {
                 camera::place_cameras.in_set(PictureTourSystems::Upload),
             ),
         );
-        app.add_systems(PostUpdate, views::look_at_tours.after(TransformSystems::Propagate));
+        // Before the frame's asset events: the records it writes are for this frame.
+        app.add_systems(
+            PostUpdate,
+            views::look_at_tours.after(TransformSystems::Propagate).before(AssetEventSystems),
+        );
     }
 }
