@@ -22,3 +22,13 @@ pub mod plugin;
 
 #[cfg(all(feature = "plugin", not(target_arch = "wasm32")))]
 pub mod headless;
+
+/// What most games need.
+#[cfg(feature = "plugin")]
+pub mod prelude {
+    pub use crate::camera::Fit;
+    pub use crate::plugin::{
+        ColorPolicy, Guide, PictureTour, PictureTourPlugin, PictureTourSystems, SolvedTour, TourAsset,
+        TourCamera, TourCameraState, TourFailed, TourReady,
+    };
+}

@@ -1,0 +1,132 @@
+//! The tour in the window: shown, dropped in, read again when its file changes. A broken one leaves the last good one.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::SystemTime;
+
+use bevy::prelude::*;
+use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
+use bevy::window::FileDragAndDrop;
+use bevy_picture_tour::assemble::TourSource;
+use bevy_picture_tour::plugin::{PictureTour, TourAsset, TourFailed, TourReady};
+
+use super::overlay::Overlay;
+use crate::failure::Failure;
+use crate::open;
+
+/// Seconds between two looks at the tour's files.
+const LOOK_EVERY: f32 = 0.5;
+
+/// The tour in the window.
+#[derive(Resource)]
+pub(super) struct Current {
+    path: Option<PathBuf>,
+    name: String,
+    source: Arc<TourSource>,
+    handle: Handle<TourAsset>,
+    /// When the newest of its files was written, as far as it was read.
+    written: Option<SystemTime>,
+    seconds: f32,
+    reading: Option<Task<(PathBuf, Result<open::Opened, Failure>)>>,
+}
+
+impl Current {
+    pub(super) fn new(path: Option<PathBuf>, name: String, source: Arc<TourSource>) -> Self {
+        let written = path.as_deref().and_then(|path| newest(path, &source));
+        Self { path, name, source, handle: Handle::default(), written, seconds: 0.0, reading: None }
+    }
+
+    fn read(&mut self, path: PathBuf) {
+        self.reading = Some(AsyncComputeTaskPool::get().spawn(async move {
+            let opened = open::open(Some(&path));
+            (path, opened)
+        }));
+    }
+}
+
+/// When the newest of a tour's files was written.
+fn newest(path: &Path, source: &TourSource) -> Option<SystemTime> {
+    let folder = path.parent()?;
+    let files = source.tour.files().into_iter().map(|(_, file)| file.in_folder(folder));
+    let written = |file: PathBuf| std::fs::metadata(file).and_then(|metadata| metadata.modified()).ok();
+    files.chain([path.to_owned()]).filter_map(written).max()
+}
+
+pub(super) fn show_first(
+    mut commands: Commands,
+    mut current: ResMut<Current>,
+    mut tours: ResMut<Assets<TourAsset>>,
+    mut overlay: ResMut<Overlay>,
+) {
+    current.handle = tours.add(TourAsset(Arc::clone(&current.source)));
+    commands.spawn(PictureTour(current.handle.clone()));
+    overlay.say("Drag to look, wheel to step in, P for the path, H for all keys.");
+}
+
+/// A tour file dropped into the window.
+pub(super) fn take_dropped(mut drops: MessageReader<FileDragAndDrop>, mut current: ResMut<Current>) {
+    for drop in drops.read() {
+        if let FileDragAndDrop::DroppedFile { path_buf, .. } = drop {
+            current.read(path_buf.clone());
+        }
+    }
+}
+
+/// Reads the tour again when one of its files was written.
+pub(super) fn watch(mut current: ResMut<Current>, time: Res<Time>) {
+    let current = &mut *current;
+    current.seconds += time.delta_secs();
+    if current.seconds < LOOK_EVERY || current.reading.is_some() {
+        return;
+    }
+    current.seconds = 0.0;
+    let Some(path) = current.path.clone() else { return };
+    let written = newest(&path, &current.source);
+    if written.is_some() && written != current.written {
+        current.written = written;
+        current.read(path);
+    }
+}
+
+/// Takes over a tour that was read, or tells what is wrong with it.
+pub(super) fn take_reread(
+    mut current: ResMut<Current>,
+    mut tours: ResMut<Assets<TourAsset>>,
+    mut overlay: ResMut<Overlay>,
+) {
+    let Some((path, opened)) = current.reading.as_mut().and_then(check_ready) else { return };
+    current.reading = None;
+    match opened {
+        Ok(opened) => {
+            let source = Arc::new(opened.source);
+            current.written = newest(&path, &source);
+            current.path = Some(path);
+            current.name = opened.name;
+            current.source = Arc::clone(&source);
+            overlay.problem = None;
+            if tours.insert(&current.handle, TourAsset(source)).is_err() {
+                overlay.say("The tour could not be replaced; start the program anew with it.");
+            }
+        }
+        Err(failure) => tell(&mut overlay, &failure.to_string()),
+    }
+}
+
+pub(super) fn ready(_ready: On<TourReady>, current: Res<Current>, mut overlay: ResMut<Overlay>) {
+    overlay.problem = None;
+    if current.path.is_some() {
+        overlay.say(format!("{} - H shows the keys.", current.name));
+    }
+}
+
+pub(super) fn failed(failed: On<TourFailed>, current: Res<Current>, mut overlay: ResMut<Overlay>) {
+    tell(&mut overlay, &format!("{}: {}", current.name, failed.error));
+}
+
+/// On the screen until it is mended, and on stderr.
+fn tell(overlay: &mut Overlay, problem: &str) {
+    use std::io::Write as _;
+    // A closed stderr is no reason to stop.
+    let _ = writeln!(std::io::stderr().lock(), "{}", problem.trim_end());
+    overlay.problem = Some(problem.trim_end().to_owned());
+}
