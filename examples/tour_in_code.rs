@@ -10,8 +10,8 @@ use bevy_picture_tour::assemble::TourSource;
 use bevy_picture_tour::picture::{PicturePoint, PngPixels, encode_png};
 use bevy_picture_tour::prelude::*;
 use bevy_picture_tour::tour::{
-    Background, BackgroundPlace, CameraPath, Document, FocalLength, Keyframe, Motion, Object, Region, Support,
-    Tour, WaterArea,
+    Background, BackgroundPlace, CameraPath, Document, FocalLength, Keyframe, Motion, Object, Region,
+    Support, Tour, WaterArea,
 };
 
 const SIZE: UVec2 = UVec2::new(640, 360);

@@ -85,7 +85,10 @@ fn main() -> Result<(), Failure> {
     let mean = mean_of(views.iter());
     println!("mean of {} views  {}", views.len(), figures(mean.0, mean.1, mean.2));
     let safe = mean_of(views.iter().enumerate().filter(|(i, _)| ![4, 7].contains(i)).map(|(_, view)| view));
-    println!("mean without views 5 and 8, which a wrong focal length spoils  {}", figures(safe.0, safe.1, safe.2));
+    println!(
+        "mean without views 5 and 8, which a wrong focal length spoils  {}",
+        figures(safe.0, safe.1, safe.2)
+    );
 
     let solver = solver(&world, &built);
     let per_view = if views.is_empty() { 0.0 } else { rendering / views.len() as f64 };
@@ -117,7 +120,8 @@ fn main() -> Result<(), Failure> {
 type Figures = (f64, f64, Option<(f64, f64)>);
 
 fn figures(psnr: f64, ssim: f64, water: Option<(f64, f64)>) -> String {
-    let water = water.map_or_else(|| "no water".to_owned(), |(psnr, ssim)| format!("{psnr:6.2} dB {ssim:.4}"));
+    let water =
+        water.map_or_else(|| "no water".to_owned(), |(psnr, ssim)| format!("{psnr:6.2} dB {ssim:.4}"));
     format!("whole {psnr:6.2} dB {ssim:.4}   water {water}")
 }
 
@@ -132,9 +136,8 @@ fn mean_of<'a>(views: impl Iterator<Item = &'a Figures>) -> Figures {
     (
         mean(views.iter().map(|view| view.0).collect()),
         mean(views.iter().map(|view| view.1).collect()),
-        (!water.is_empty()).then(|| {
-            (mean(water.iter().map(|w| w.0).collect()), mean(water.iter().map(|w| w.1).collect()))
-        }),
+        (!water.is_empty())
+            .then(|| (mean(water.iter().map(|w| w.0).collect()), mean(water.iter().map(|w| w.1).collect()))),
     )
 }
 

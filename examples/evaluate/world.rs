@@ -119,7 +119,8 @@ impl World {
         if banded || no_pair_behind {
             let shore = list(&scene["waterline"]).iter().map(point).collect::<Result<Vec<_>, _>>()?;
             if shore.len() >= 2 {
-                tour.background = Background { place: Some(BackgroundPlace::Contact(shore)), bands: Vec::new() };
+                tour.background =
+                    Background { place: Some(BackgroundPlace::Contact(shore)), bands: Vec::new() };
             }
         }
         for object in list(&scene["objects"]) {

@@ -93,9 +93,7 @@ impl TourSource {
             .iter()
             .zip(&used.objects)
             .enumerate()
-            .map(|(i, (whole, used))| {
-                region(&format!("objects[{i}].outline"), &whole.outline, &used.outline)
-            })
+            .map(|(i, (whole, used))| region(&format!("objects[{i}].outline"), &whole.outline, &used.outline))
             .collect();
         for (i, mask) in objects.iter().enumerate() {
             if mask.as_ref().is_some_and(|mask| mask.bounds().is_none()) {

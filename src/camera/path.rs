@@ -204,8 +204,7 @@ fn at_end(leg: &Leg, abrupt: Easing, passing: Option<Motion>) -> Motion {
 
 /// The velocity at a keyframe between two legs; `None` where the camera rests.
 fn passing(before: &Leg, after: &Leg) -> Option<Motion> {
-    if before.is_cut() || after.is_cut() || before.easing == Easing::Out || after.easing == Easing::In
-    {
+    if before.is_cut() || after.is_cut() || before.easing == Easing::Out || after.easing == Easing::In {
         return None;
     }
     let (arriving, leaving) = (before.velocity(), after.velocity());

@@ -142,12 +142,9 @@ fn a_cut_jumps_and_rests_on_both_sides() {
 
 #[test]
 fn easing_between_two_rests_is_what_its_name_says() {
-    for (easing, share) in [
-        (Easing::Smooth, 0.15625),
-        (Easing::Linear, 0.25),
-        (Easing::In, 0.0625),
-        (Easing::Out, 0.4375),
-    ] {
+    for (easing, share) in
+        [(Easing::Smooth, 0.15625), (Easing::Linear, 0.25), (Easing::In, 0.0625), (Easing::Out, 0.4375)]
+    {
         let ends = [0.0, 8.0].map(|x| keyframe([x, 1.8, 0.0], 0.0, 4.0, 0.0, easing));
         let x = CameraPath::new(ends.to_vec(), false).unwrap().at(1.0).position.x;
         assert!((x - 8.0 * share).abs() < 1e-12, "{easing:?} is at {x} m, not at {} m", 8.0 * share);

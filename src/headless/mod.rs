@@ -40,7 +40,9 @@ use crate::plugin::TourProjection;
 #[non_exhaustive]
 pub enum HeadlessError {
     /// There is no graphics adapter, not even a software one.
-    #[error("no graphics adapter was found; install a Vulkan driver (on Debian: mesa-vulkan-drivers) or render with --reference")]
+    #[error(
+        "no graphics adapter was found; install a Vulkan driver (on Debian: mesa-vulkan-drivers) or render with --reference"
+    )]
     NoAdapter,
     /// The tour could not be solved or built.
     #[error("{0}")]
@@ -219,7 +221,8 @@ pub fn headless_app() -> Result<App, HeadlessError> {
 pub fn adapter_exists() -> bool {
     let backends = bevy::render::settings::WgpuSettings::default().backends;
     let Some(backends) = backends else { return false };
-    let descriptor = wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle() };
+    let descriptor =
+        wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle() };
     let instance = wgpu::Instance::new(descriptor);
     bevy::tasks::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default())).is_ok()
 }

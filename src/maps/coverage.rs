@@ -11,6 +11,7 @@ use crate::picture::Mask;
 use crate::picture::PicturePoint;
 use crate::scene::Surface;
 use crate::scene::TourScene;
+use crate::scene::margin_px;
 
 /// The masks of a tour, all of the picture's size.
 #[derive(Clone, Debug)]
@@ -66,7 +67,9 @@ impl Coverage {
         let grown: Vec<Grid<u8>> = alpha
             .iter()
             .enumerate()
-            .map(|(index, grid)| if index < first_billboard { grid.clone() } else { grow(grid, fringe, size) })
+            .map(
+                |(index, grid)| if index < first_billboard { grid.clone() } else { grow(grid, fringe, size) },
+            )
             .collect();
         let water = Grid::from_fn(IVec2::ZERO, size, |pixel| {
             scene.water
@@ -91,6 +94,22 @@ impl Coverage {
             bits
         });
         Self { alpha, grown, above, water, pure }
+    }
+}
+
+impl Coverage {
+    /// Gives a pixel to a billboard, if its layer reaches there.
+    pub(super) fn give(&mut self, index: usize, pixel: IVec2) {
+        let (Some(alpha), Some(grown)) = (self.alpha[index].index(pixel), self.grown[index].index(pixel))
+        else {
+            return;
+        };
+        self.alpha[index].cells[alpha] = 255;
+        self.grown[index].cells[grown] = 255;
+        if let Some(cell) = self.water.index(pixel) {
+            self.water.cells[cell] = false;
+            self.pure.cells[cell] = 1 << index;
+        }
     }
 }
 
@@ -164,9 +183,9 @@ fn framework_alpha(
         // Antialiased masks leave slivers between them everywhere; only what somewhere near is mostly background, or
         // ground that has no place on the ground's plane, hangs under the contact line.
         let near = |channel: usize| {
-            (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| IVec2::new(dx, dy))).any(|step| {
-                above.index(pixel + step).is_some_and(|near| pick(near, channel) > 0.5)
-            })
+            (-1..=1)
+                .flat_map(|dy| (-1..=1).map(move |dx| IVec2::new(dx, dy)))
+                .any(|step| above.index(pixel + step).is_some_and(|near| pick(near, channel) > 0.5))
         };
         let mut share = if near(0) { pick(index, 0) } else { 0.0 };
         if ground.cells[index] == 0 && near(1) {
@@ -177,13 +196,15 @@ fn framework_alpha(
     [background, ground]
 }
 
-/// The part of a mask that is not empty, with a border of one empty pixel that may lie outside the picture.
+/// The part of a mask that is not empty, with a border of empty pixels that may lie outside the picture: one at least,
+/// and below room for what its body shows between the mask and the contact line.
 fn boxed(mask: &Mask) -> Grid<u8> {
     let Some(bounds) = mask.bounds() else {
         return Grid::filled(IVec2::ZERO, UVec2::ONE, 0);
     };
     let inside = mask.size().as_ivec2();
-    Grid::from_fn(bounds.min.as_ivec2() - 1, bounds.size() + 2, |pixel| {
+    let room = UVec2::new(2, 1 + margin_px(mask.size()) as u32);
+    Grid::from_fn(bounds.min.as_ivec2() - 1, bounds.size() + room, |pixel| {
         let within = pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(inside).all();
         if within { dusted(mask.get(pixel.x as u32, pixel.y as u32)) } else { 0 }
     })

@@ -37,7 +37,9 @@ impl<T: Copy + Send + Sync> Grid<T> {
         let cells = (0..width * size.y as usize)
             .into_par_iter()
             .with_min_len(4096)
-            .map(|index| make(origin + IVec2::new((index % width.max(1)) as i32, (index / width.max(1)) as i32)))
+            .map(|index| {
+                make(origin + IVec2::new((index % width.max(1)) as i32, (index / width.max(1)) as i32))
+            })
             .collect();
         Self { origin, size, cells }
     }

@@ -43,9 +43,11 @@ pub(super) fn lifted(target: [u8; 3], behind: [f32; 3], alpha: u8) -> [u8; 4] {
 /// The code whose blend shows `target`; among neighbours the first that rounds to it.
 fn nearest_code(wanted: f32, target: u8, behind: f32, a: f32) -> u8 {
     let exact = srgb_from_linear(((wanted - (1.0 - a) * behind) / a).clamp(0.0, 1.0));
-    let shows =
-        |code: u8| srgb_from_linear(a * linear_from_srgb(code) + (1.0 - a) * behind) == target;
-    [exact, exact.saturating_sub(1), exact.saturating_add(1)].into_iter().find(|&code| shows(code)).unwrap_or(exact)
+    let shows = |code: u8| srgb_from_linear(a * linear_from_srgb(code) + (1.0 - a) * behind) == target;
+    [exact, exact.saturating_sub(1), exact.saturating_add(1)]
+        .into_iter()
+        .find(|&code| shows(code))
+        .unwrap_or(exact)
 }
 
 #[cfg(test)]

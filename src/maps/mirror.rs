@@ -48,7 +48,11 @@ pub(super) fn mirrored(scene: &TourScene, surface: &Surface, pixel: PicturePoint
 
 /// Where the point that `surface` shows directly at `pixel` is mirrored in the picture's water.
 #[must_use]
-pub(super) fn reflection_of(scene: &TourScene, surface: &Surface, pixel: PicturePoint) -> Option<PicturePoint> {
+pub(super) fn reflection_of(
+    scene: &TourScene,
+    surface: &Surface,
+    pixel: PicturePoint,
+) -> Option<PicturePoint> {
     let ray = scene.camera.ray(pixel);
     if *surface == Surface::Infinity {
         let in_view = scene.camera.pose.rotation.inverse() * mirror(ray.direction);

@@ -4,6 +4,7 @@
 //! resampled when maps are built, so the first view is the picture itself whatever the solve said (architecture.md,
 //! decision 1). Laid over each other far to near, the layers show the picture to the code.
 
+mod bodies;
 mod coverage;
 mod fill;
 mod grid;
@@ -73,11 +74,10 @@ impl Maps {
     ) -> Option<Self> {
         let step = |share: f32, what: &str| progress(share, what).then_some(());
         step(0.0, "who covers what")?;
-        let coverage = Coverage::of(scene, masks);
+        let mut coverage = Coverage::of(scene, masks);
         step(0.2, "what the water mirrors")?;
         let mut zones = zones::zones(scene, &coverage);
-        zones::take_in_bodies(scene, picture, &coverage, &mut zones);
-        let owner = zones::seen_owner(scene, &coverage, &zones);
+        let owner = bodies::take_in_bodies(scene, picture, &mut coverage, &mut zones);
         let tint = reflection::fit_tint(scene, picture, &coverage, &owner);
         step(0.4, "filling what is hidden")?;
         let count = scene.components.len();
@@ -108,9 +108,8 @@ impl Maps {
         }
         step(0.8, "laying the layers over each other")?;
         reflection::lift_reflections(scene, picture, &coverage, &zones, &mut reflections);
-        let mut textures: Vec<_> = (0..count)
-            .map(|index| texture::texture_map(picture, &coverage, &direct[index], index))
-            .collect();
+        let mut textures: Vec<_> =
+            (0..count).map(|index| texture::texture_map(picture, &coverage, &direct[index], index)).collect();
         texture::lift_textures(scene, picture, &coverage, &zones, &mut textures, &reflections);
         let components = textures
             .into_iter()

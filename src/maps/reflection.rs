@@ -16,7 +16,12 @@ use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::picture::color::linear_from_srgb;
 use crate::picture::color::srgb_from_linear;
+use crate::picture::color::srgb_from_linear_f32;
 use crate::scene::TourScene;
+
+/// Misses of the prediction beyond this many median errors, and beyond so many codes, are no shade of the water.
+const MISS_TOLERANCE: f32 = 3.0;
+const LEAST_TOLERANCE: f32 = 10.0;
 
 /// Where a texel of a reflection map came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -138,13 +143,18 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
         (predicted, origin)
     });
     let width = extent.x as usize;
+    let code = |linear: f32| 255.0 * srgb_from_linear_f32(linear);
+    let tolerance = (MISS_TOLERANCE * tint.error_codes).max(LEAST_TOLERANCE);
     let mut misses: Vec<[f32; 3]> = Vec::with_capacity(texels.cells.len());
     let mut known: Vec<f32> = Vec::with_capacity(texels.cells.len());
     for (cell, (predicted, origin)) in texels.cells.iter().enumerate() {
         if *origin == Origin::Seen {
             let color = linear(picture, texels.pixel(cell));
             misses.push(std::array::from_fn(|c| color[c] - predicted[c]));
-            known.push(1.0);
+            // Where the prediction fails altogether (a depth is wrong, something swims there) its miss says nothing
+            // about the texels beside.
+            let off = (0..3).map(|c| (code(color[c]) - code(predicted[c])).abs()).fold(0.0, f32::max);
+            known.push(f32::from(u8::from(off < tolerance)));
         } else {
             misses.push([0.0; 3]);
             known.push(0.0);

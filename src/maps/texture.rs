@@ -26,9 +26,14 @@ pub(super) fn filled_colors(
 ) -> Grid<[f32; 3]> {
     let area = &coverage.grown[index];
     let pure = |pixel: IVec2| coverage.pure.get(pixel).is_some_and(|bits| bits & (1 << index) != 0);
-    let mut colors = Grid::from_fn(area.origin, area.size, |pixel| {
-        if pure(pixel) { linear(picture, pixel) } else { [0.0; 3] }
-    });
+    let mut colors =
+        Grid::from_fn(
+            area.origin,
+            area.size,
+            |pixel| {
+                if pure(pixel) { linear(picture, pixel) } else { [0.0; 3] }
+            },
+        );
     let mut known: Vec<f32> =
         (0..colors.cells.len()).map(|cell| f32::from(u8::from(pure(colors.pixel(cell))))).collect();
     if scene.components[index].role == Role::Background && scene.water {
@@ -112,11 +117,8 @@ pub(super) fn lift_textures(
             let covers = |&&index: &&usize| coverage.grown[index].get(pixel).unwrap_or(0) > 0;
             let nearest = *order.iter().rev().find(covers)?;
             let above = coverage.above.get(pixel).unwrap_or(true);
-            let mut behind = if above {
-                [0.0; 3]
-            } else {
-                composite(reflections, &stack_at(scene, zones, pixel), pixel)?
-            };
+            let mut behind =
+                if above { [0.0; 3] } else { composite(reflections, &stack_at(scene, zones, pixel), pixel)? };
             for &index in order.iter().take_while(|&&index| index != nearest) {
                 if let Some(texel) = textures[index].get(pixel) {
                     behind = lift::over(texel, behind);

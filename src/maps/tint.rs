@@ -228,7 +228,8 @@ mod tests {
 
     #[test]
     fn painted_water_is_found_too() {
-        let water = |d: [f32; 3], _: f32| d.map(|x| linear_from_srgb_f32(0.75 * srgb_from_linear_f32(x) + 0.06));
+        let water =
+            |d: [f32; 3], _: f32| d.map(|x| linear_from_srgb_f32(0.75 * srgb_from_linear_f32(x) + 0.06));
         let tint = Tint::fit(&samples(water));
         let (said, truth) = (tint.mirrored([0.5, 0.3, 0.7], 0.1), water([0.5, 0.3, 0.7], 0.1));
         for c in 0..3 {

@@ -14,11 +14,7 @@ pub fn linear_from_srgb_f32(srgb: f32) -> f32 {
 /// sRGB value of linear light; both 0–1. Values above 1 follow the same curve, negative ones its straight foot.
 #[must_use]
 pub fn srgb_from_linear_f32(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        linear * 12.92
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
+    if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
 /// Linear light, 0–1, of an sRGB code.
@@ -64,30 +60,17 @@ struct Tables {
 static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     let linear_of = |code: f64| linear_from_srgb_f64(code / 255.0) as f32;
     let linear = std::array::from_fn(|code| linear_of(code as f64));
-    let step_up = std::array::from_fn(|code| {
-        if code < 255 {
-            linear_of(code as f64 + 0.5)
-        } else {
-            f32::NAN
-        }
-    });
+    let step_up =
+        std::array::from_fn(|code| if code < 255 { linear_of(code as f64 + 0.5) } else { f32::NAN });
     let first_code = (0..=BINS).map(|bin| {
         let low = bin as f32 / BINS as f32;
         step_up.partition_point(|step| *step <= low) as u8
     });
-    Tables {
-        linear,
-        step_up,
-        first_code: first_code.collect(),
-    }
+    Tables { linear, step_up, first_code: first_code.collect() }
 });
 
 fn linear_from_srgb_f64(srgb: f64) -> f64 {
-    if srgb <= 0.040_45 {
-        srgb / 12.92
-    } else {
-        ((srgb + 0.055) / 1.055).powf(2.4)
-    }
+    if srgb <= 0.040_45 { srgb / 12.92 } else { ((srgb + 0.055) / 1.055).powf(2.4) }
 }
 
 #[cfg(test)]
@@ -106,11 +89,8 @@ mod tests {
         for i in -1_000..1_001_000 {
             let linear = i as f32 * 1e-6;
             let exact = f64::from(linear).clamp(0.0, 1.0);
-            let srgb = if exact <= 0.003_130_8 {
-                exact * 12.92
-            } else {
-                1.055 * exact.powf(1.0 / 2.4) - 0.055
-            };
+            let srgb =
+                if exact <= 0.003_130_8 { exact * 12.92 } else { 1.055 * exact.powf(1.0 / 2.4) - 0.055 };
             let code = srgb_from_linear(linear);
             let off = (srgb * 255.0 - f64::from(code)).abs();
             assert!(off < 0.500_1, "{linear} became {code}, {off} codes off");
@@ -119,10 +99,7 @@ mod tests {
 
     #[test]
     fn values_without_a_code_are_clamped() {
-        assert_eq!(
-            [-1.0, f32::NAN, 1.5, f32::INFINITY].map(srgb_from_linear),
-            [0, 0, 255, 255]
-        );
+        assert_eq!([-1.0, f32::NAN, 1.5, f32::INFINITY].map(srgb_from_linear), [0, 0, 255, 255]);
     }
 
     #[test]

@@ -7,8 +7,8 @@ use std::io::Cursor;
 use glam::UVec2;
 use image::metadata::Orientation;
 use image::{
-    ColorType, DynamicImage, ExtendedColorType, ImageBuffer, ImageDecoder, ImageError, ImageReader,
-    Limits, Pixel,
+    ColorType, DynamicImage, ExtendedColorType, ImageBuffer, ImageDecoder, ImageError, ImageReader, Limits,
+    Pixel,
 };
 use rayon::prelude::*;
 
@@ -47,11 +47,7 @@ pub struct DecodedPicture {
 /// - [`PictureError::Damaged`] for truncated and contradictory files,
 /// - [`PictureError::Empty`] and [`PictureError::TooLarge`] for sizes out of bounds, before decoding.
 pub fn decode_picture(bytes: &[u8], name: &str) -> Result<DecodedPicture, PictureError> {
-    let Loaded {
-        image,
-        icc,
-        stored_size,
-    } = load(bytes, name)?;
+    let Loaded { image, icc, stored_size } = load(bytes, name)?;
     let mut notes = Vec::new();
     let is_gray = !image.color().has_color();
     let to_srgb = icc.and_then(|icc| icc.map_or(Ok(None), |icc| ToSrgb::new(&icc, is_gray)));
@@ -72,11 +68,7 @@ pub fn decode_picture(bytes: &[u8], name: &str) -> Result<DecodedPicture, Pictur
         })
         .map_err(|reason: String| damaged(name, read_header(bytes).ok(), reason))?,
     };
-    Ok(DecodedPicture {
-        picture: Picture::new(size, pixels)?,
-        lens: read_lens(bytes, stored_size),
-        notes,
-    })
+    Ok(DecodedPicture { picture: Picture::new(size, pixels)?, lens: read_lens(bytes, stored_size), notes })
 }
 
 /// Decodes a mask for a picture of `expected` pixels, from the same formats as [`decode_picture`].
@@ -91,26 +83,13 @@ pub fn decode_mask(bytes: &[u8], name: &str, expected: UVec2) -> Result<Mask, Pi
     let image = load(bytes, name)?.image;
     let size = size_of(&image);
     if !is_same_shape(size, expected) {
-        return Err(PictureError::MaskSize {
-            name: name.to_owned(),
-            found: size,
-            expected,
-        });
+        return Err(PictureError::MaskSize { name: name.to_owned(), found: size, expected });
     }
-    let luma_and_alpha = map_rows(&image, |row| {
-        Ok(row
-            .iter()
-            .map(|pixel| [luma(*pixel), code8(pixel[3])])
-            .collect())
-    })
-    .map_err(|reason: String| damaged(name, read_header(bytes).ok(), reason))?;
-    let alpha_varies = luma_and_alpha
-        .iter()
-        .any(|value| value[1] != luma_and_alpha[0][1]);
-    let coverage = luma_and_alpha
-        .iter()
-        .map(|value| value[usize::from(alpha_varies)])
-        .collect();
+    let luma_and_alpha =
+        map_rows(&image, |row| Ok(row.iter().map(|pixel| [luma(*pixel), code8(pixel[3])]).collect()))
+            .map_err(|reason: String| damaged(name, read_header(bytes).ok(), reason))?;
+    let alpha_varies = luma_and_alpha.iter().any(|value| value[1] != luma_and_alpha[0][1]);
+    let coverage = luma_and_alpha.iter().map(|value| value[usize::from(alpha_varies)]).collect();
     Ok(Mask::new(size, coverage)?.resized_to(expected))
 }
 
@@ -124,10 +103,8 @@ struct Loaded {
 }
 
 fn load(bytes: &[u8], name: &str) -> Result<Loaded, PictureError> {
-    let header = read_header(bytes).map_err(|found| PictureError::UnknownFormat {
-        name: name.to_owned(),
-        found,
-    })?;
+    let header =
+        read_header(bytes).map_err(|found| PictureError::UnknownFormat { name: name.to_owned(), found })?;
     let fail = |error| refuse(name, header, &error);
     if let Some(size) = header.size {
         check_size(size, name)?;
@@ -136,11 +113,7 @@ fn load(bytes: &[u8], name: &str) -> Result<Loaded, PictureError> {
         return Err(unknown_kind(name, header, "CMYK", "convert it to RGB"));
     }
     if header.is_cut_off {
-        return Err(damaged(
-            name,
-            Some(header),
-            "it ends before its pixels do".to_owned(),
-        ));
+        return Err(damaged(name, Some(header), "it ends before its pixels do".to_owned()));
     }
 
     let mut limits = Limits::no_limits();
@@ -153,29 +126,17 @@ fn load(bytes: &[u8], name: &str) -> Result<Loaded, PictureError> {
 
     let stored_size = UVec2::from(decoder.dimensions());
     check_size(stored_size, name)?;
-    if matches!(
-        decoder.original_color_type(),
-        ExtendedColorType::Cmyk8 | ExtendedColorType::Cmyk16
-    ) {
+    if matches!(decoder.original_color_type(), ExtendedColorType::Cmyk8 | ExtendedColorType::Cmyk16) {
         return Err(unknown_kind(name, header, "CMYK", "convert it to RGB"));
     }
     if matches!(decoder.color_type(), ColorType::Rgb32F | ColorType::Rgba32F) {
-        return Err(unknown_kind(
-            name,
-            header,
-            "floating-point",
-            "save it with 8 or 16 bits a channel",
-        ));
+        return Err(unknown_kind(name, header, "floating-point", "save it with 8 or 16 bits a channel"));
     }
     let icc = decoder.icc_profile().map_err(|error| error.to_string());
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
     let mut image = DynamicImage::from_decoder(decoder).map_err(fail)?;
     image.apply_orientation(orientation);
-    Ok(Loaded {
-        image,
-        icc,
-        stored_size,
-    })
+    Ok(Loaded { image, icc, stored_size })
 }
 
 fn check_size(size: UVec2, name: &str) -> Result<(), PictureError> {
@@ -213,17 +174,12 @@ fn unknown_kind(name: &str, header: Header, kind: &str, advice: &'static str) ->
 
 fn damaged(name: &str, header: Option<Header>, reason: String) -> PictureError {
     let format = header.map_or("picture", |header| format_name(header.format));
-    PictureError::Damaged {
-        name: name.to_owned(),
-        format,
-        reason,
-    }
+    PictureError::Damaged { name: name.to_owned(), format, reason }
 }
 
 fn refuse(name: &str, header: Header, error: &ImageError) -> PictureError {
     // The decoders' own words; the wrapper only repeats the format.
-    let source =
-        std::error::Error::source(error).map_or_else(|| error.to_string(), ToString::to_string);
+    let source = std::error::Error::source(error).map_or_else(|| error.to_string(), ToString::to_string);
     match error {
         ImageError::Unsupported(_) => PictureError::UnknownKind {
             name: name.to_owned(),
@@ -239,9 +195,7 @@ fn map_rows<T: Send>(
     image: &DynamicImage,
     map: impl Fn(&mut [Rgba16]) -> Result<Vec<T>, String> + Sync,
 ) -> Result<Vec<T>, String> {
-    let rows = (0..image.height())
-        .into_par_iter()
-        .map(|y| map(&mut row16(image, y)));
+    let rows = (0..image.height()).into_par_iter().map(|y| map(&mut row16(image, y)));
     let rows: Vec<Vec<T>> = rows.collect::<Result<_, _>>()?;
     Ok(rows.into_iter().flatten().collect())
 }
@@ -252,9 +206,7 @@ fn row16(image: &DynamicImage, y: u32) -> Vec<Rgba16> {
         y: u32,
         wide: fn(P::Subpixel) -> u16,
     ) -> Vec<Rgba16> {
-        (0..image.width())
-            .map(|x| image.get_pixel(x, y).to_rgba().0.map(wide))
-            .collect()
+        (0..image.width()).map(|x| image.get_pixel(x, y).to_rgba().0.map(wide)).collect()
     }
     // 257 takes 255 to 65535, so 8-bit codes come back as they were.
     let from8 = |code: u8| u16::from(code) * 257;
@@ -276,9 +228,8 @@ fn row16(image: &DynamicImage, y: u32) -> Vec<Rgba16> {
 fn over_white([r, g, b, alpha]: Rgba16) -> [u8; 3] {
     const WHITE: u32 = 65_535;
     let alpha = u32::from(alpha);
-    [r, g, b].map(|code| {
-        code8(((u32::from(code) * alpha + WHITE * (WHITE - alpha) + WHITE / 2) / WHITE) as u16)
-    })
+    [r, g, b]
+        .map(|code| code8(((u32::from(code) * alpha + WHITE * (WHITE - alpha) + WHITE / 2) / WHITE) as u16))
 }
 
 /// Rec. 709 luma of codes, as an 8-bit code.

@@ -29,11 +29,7 @@ pub enum PngPixels<'a> {
 pub fn encode_png(size: UVec2, pixels: PngPixels<'_>) -> Result<Vec<u8>, PictureError> {
     let (count, bytes, color) = match pixels {
         PngPixels::Rgb(pixels) => (pixels.len(), pixels.as_flattened(), ExtendedColorType::Rgb8),
-        PngPixels::Rgba(pixels) => (
-            pixels.len(),
-            pixels.as_flattened(),
-            ExtendedColorType::Rgba8,
-        ),
+        PngPixels::Rgba(pixels) => (pixels.len(), pixels.as_flattened(), ExtendedColorType::Rgba8),
         PngPixels::Gray(pixels) => (pixels.len(), pixels, ExtendedColorType::L8),
     };
     check_count(size, count)?;
@@ -53,18 +49,12 @@ pub fn encode_png(size: UVec2, pixels: PngPixels<'_>) -> Result<Vec<u8>, Picture
 /// [`PictureError::WrongCount`] as [`encode_png`]; [`PictureError::Write`] when the file cannot be written.
 pub fn save_png(path: &Path, size: UVec2, pixels: PngPixels<'_>) -> Result<(), PictureError> {
     let png = encode_png(size, pixels)?;
-    write_whole(path, &png).map_err(|source| PictureError::Write {
-        path: path.to_owned(),
-        source,
-    })
+    write_whole(path, &png).map_err(|source| PictureError::Write { path: path.to_owned(), source })
 }
 
 /// Writes beside the file first: a rename is one step only within a folder's file system.
 fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".").suffix(".png.part");
     // Temporary files are private by default; a picture gets what the user's umask leaves.
@@ -98,23 +88,13 @@ mod tests {
     #[test]
     fn a_missing_folder_is_told_by_its_path() {
         let path = Path::new("/nowhere/at/all/frame.png");
-        let error = save_png(path, UVec2::ONE, PngPixels::Gray(&[0]))
-            .unwrap_err()
-            .to_string();
-        assert!(
-            error.starts_with("/nowhere/at/all/frame.png could not be written"),
-            "{error}"
-        );
+        let error = save_png(path, UVec2::ONE, PngPixels::Gray(&[0])).unwrap_err().to_string();
+        assert!(error.starts_with("/nowhere/at/all/frame.png could not be written"), "{error}");
     }
 
     #[test]
     fn a_path_of_one_name_is_written_here_and_too_few_pixels_nowhere() {
-        let error = save_png(
-            Path::new("never.png"),
-            UVec2::new(2, 2),
-            PngPixels::Gray(&[0]),
-        )
-        .unwrap_err();
+        let error = save_png(Path::new("never.png"), UVec2::new(2, 2), PngPixels::Gray(&[0])).unwrap_err();
         assert!(matches!(error, PictureError::WrongCount { count: 1, .. }));
         assert!(!Path::new("never.png").exists());
     }

@@ -20,17 +20,9 @@ pub(super) struct Header {
 /// The header of a PNG, JPEG, TIFF or WebP; else what the bytes look like instead, with an article.
 pub(super) fn read_header(bytes: &[u8]) -> Result<Header, &'static str> {
     let format = image::guess_format(bytes).ok();
-    let header = |format| Header {
-        format,
-        size: None,
-        is_cmyk: false,
-        is_cut_off: false,
-    };
+    let header = |format| Header { format, size: None, is_cmyk: false, is_cut_off: false };
     match format {
-        Some(format @ ImageFormat::Png) => Ok(Header {
-            size: png_size(bytes),
-            ..header(format)
-        }),
+        Some(format @ ImageFormat::Png) => Ok(Header { size: png_size(bytes), ..header(format) }),
         Some(format @ ImageFormat::Jpeg) => {
             let jpeg = walk_jpeg(bytes);
             Ok(Header {
@@ -64,9 +56,7 @@ fn describe(bytes: &[u8], format: Option<ImageFormat>) -> &'static str {
     } else if brand.starts_with(b"ftyp") {
         match &brand[4..] {
             b"avif" | b"avis" => "an AVIF",
-            b"heic" | b"heix" | b"heim" | b"heis" | b"hevc" | b"mif1" | b"msf1" => {
-                "a HEIC (or HEIF)"
-            }
+            b"heic" | b"heix" | b"heim" | b"heis" | b"hevc" | b"mif1" | b"msf1" => "a HEIC (or HEIF)",
             b"crx " => "a raw photograph",
             _ => "a film",
         }
@@ -106,10 +96,7 @@ fn is_text(bytes: &[u8]) -> bool {
         }
         Err(_) => return false,
     };
-    !valid.is_empty()
-        && valid
-            .chars()
-            .all(|letter| !letter.is_control() || letter.is_whitespace())
+    !valid.is_empty() && valid.chars().all(|letter| !letter.is_control() || letter.is_whitespace())
 }
 
 /// Width and height from a PNG's first chunk.
@@ -145,17 +132,12 @@ fn walk_jpeg(bytes: &[u8]) -> Jpeg {
             (0xff, marker) => {
                 let segment = bytes.get(at + 2..).unwrap_or_default();
                 // Start of frame; c4, c8 and cc are tables and an extension.
-                let is_frame =
-                    matches!(marker, 0xc0..=0xcf) && !matches!(marker, 0xc4 | 0xc8 | 0xcc);
-                if is_frame
-                    && let Some([_, _, _, h0, h1, w0, w1, components]) = segment.first_chunk()
-                {
+                let is_frame = matches!(marker, 0xc0..=0xcf) && !matches!(marker, 0xc4 | 0xc8 | 0xcc);
+                if is_frame && let Some([_, _, _, h0, h1, w0, w1, components]) = segment.first_chunk() {
                     let side = |high: &u8, low: &u8| u32::from(u16::from_be_bytes([*high, *low]));
                     jpeg.frame = Some((UVec2::new(side(w0, w1), side(h0, h1)), *components));
                 }
-                let length = segment
-                    .first_chunk()
-                    .map_or(2, |length| u16::from_be_bytes(*length).max(2));
+                let length = segment.first_chunk().map_or(2, |length| u16::from_be_bytes(*length).max(2));
                 at += 2 + usize::from(length);
             }
         }
@@ -177,10 +159,7 @@ mod tests {
         assert_eq!(found(b"8BPS\0\x01\0\0"), "a Photoshop document");
         assert_eq!(found("BMW and Märchen\n".as_bytes()), "a text file");
         assert_eq!(found(b"BM\x36\0\0\0\0\0"), "a BMP");
-        assert_eq!(
-            found(b"\x01\x02\x03\x04\xff"),
-            "no picture of a known format"
-        );
+        assert_eq!(found(b"\x01\x02\x03\x04\xff"), "no picture of a known format");
     }
 
     #[test]
@@ -196,10 +175,7 @@ mod tests {
         bytes.extend(b"\xff\xc2\0\x14\x08\0\x03\0\x05\x04............");
         bytes.extend(b"\xff\xda\0\x02\x12\xff\0\x34\xff\xd0\x56");
         let cut = read_header(&bytes).unwrap();
-        assert_eq!(
-            (cut.size, cut.is_cmyk, cut.is_cut_off),
-            (Some(UVec2::new(5, 3)), true, true)
-        );
+        assert_eq!((cut.size, cut.is_cmyk, cut.is_cut_off), (Some(UVec2::new(5, 3)), true, true));
         bytes.extend(b"\xff\xd9");
         assert!(!read_header(&bytes).unwrap().is_cut_off);
     }

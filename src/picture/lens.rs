@@ -43,12 +43,8 @@ pub(super) fn read_lens(bytes: &[u8], stored_size: UVec2) -> Option<Lens> {
     let focal_35mm =
         number(&exif, Tag::FocalLengthIn35mmFilm).or_else(|| focal_from_sensor(&exif, frame?))?;
     let stored = stored_size.as_dvec2();
-    let whole_frame =
-        frame.is_some_and(|frame| (frame * (stored.x / frame.x) - stored).abs().y <= 1.0);
-    Some(Lens {
-        focal_35mm,
-        whole_frame,
-    })
+    let whole_frame = frame.is_some_and(|frame| (frame * (stored.x / frame.x) - stored).abs().y <= 1.0);
+    Some(Lens { focal_35mm, whole_frame })
 }
 
 /// The equivalent from the true focal length and the sensor's pixel pitch: older cameras write only those.
@@ -85,11 +81,7 @@ pub(super) mod tests {
     pub(in crate::picture) fn exif_bytes(fields: &[(Tag, Value)]) -> Vec<u8> {
         let fields: Vec<_> = fields
             .iter()
-            .map(|(tag, value)| Field {
-                tag: *tag,
-                ifd_num: In::PRIMARY,
-                value: value.clone(),
-            })
+            .map(|(tag, value)| Field { tag: *tag, ifd_num: In::PRIMARY, value: value.clone() })
             .collect();
         let mut writer = Writer::new();
         fields.iter().for_each(|field| writer.push_field(field));
@@ -104,37 +96,16 @@ pub(super) mod tests {
     }
 
     fn frame(width: u32, height: u32) -> [(Tag, Value); 2] {
-        [
-            (Tag::PixelXDimension, Value::Long(vec![width])),
-            (Tag::PixelYDimension, Value::Long(vec![height])),
-        ]
+        [(Tag::PixelXDimension, Value::Long(vec![width])), (Tag::PixelYDimension, Value::Long(vec![height]))]
     }
 
     #[test]
     fn the_whole_frame_may_be_scaled_but_not_cropped() {
         let mut fields = vec![(Tag::FocalLengthIn35mmFilm, Value::Short(vec![28]))];
-        assert_eq!(
-            lens(&fields, UVec2::new(600, 400)),
-            Some(Lens {
-                focal_35mm: 28.0,
-                whole_frame: false
-            })
-        );
+        assert_eq!(lens(&fields, UVec2::new(600, 400)), Some(Lens { focal_35mm: 28.0, whole_frame: false }));
         fields.extend(frame(6000, 4000));
-        assert_eq!(
-            lens(&fields, UVec2::new(600, 400)),
-            Some(Lens {
-                focal_35mm: 28.0,
-                whole_frame: true
-            })
-        );
-        assert_eq!(
-            lens(&fields, UVec2::new(600, 390)),
-            Some(Lens {
-                focal_35mm: 28.0,
-                whole_frame: false
-            })
-        );
+        assert_eq!(lens(&fields, UVec2::new(600, 400)), Some(Lens { focal_35mm: 28.0, whole_frame: true }));
+        assert_eq!(lens(&fields, UVec2::new(600, 390)), Some(Lens { focal_35mm: 28.0, whole_frame: false }));
     }
 
     #[test]
@@ -153,23 +124,13 @@ pub(super) mod tests {
     #[test]
     fn focal_length_in_pixels_is_by_the_diagonal() {
         // 36 mm lens on a 36 mm wide frame: as many pixels as the frame is wide.
-        let focal = Lens {
-            focal_35mm: 36.0,
-            whole_frame: true,
-        }
-        .focal_px(UVec2::new(3000, 2000));
+        let focal = Lens { focal_35mm: 36.0, whole_frame: true }.focal_px(UVec2::new(3000, 2000));
         assert!((focal - 3000.0).abs() < 1e-9, "{focal} px");
     }
 
     #[test]
     fn no_lens_without_exif_or_with_an_unknown_one() {
         assert_eq!(read_lens(b"II*\0nonsense", UVec2::ONE), None);
-        assert_eq!(
-            lens(
-                &[(Tag::FocalLengthIn35mmFilm, Value::Short(vec![0]))],
-                UVec2::ONE
-            ),
-            None
-        );
+        assert_eq!(lens(&[(Tag::FocalLengthIn35mmFilm, Value::Short(vec![0]))], UVec2::ONE), None);
     }
 }

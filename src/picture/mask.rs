@@ -99,16 +99,8 @@ impl Mask {
         let low = low.as_uvec2();
         let high = (low + 1).min(self.size - 1);
         let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
-        let upper = mix(
-            self.coverage(low.x, low.y),
-            self.coverage(high.x, low.y),
-            part.x,
-        );
-        let lower = mix(
-            self.coverage(low.x, high.y),
-            self.coverage(high.x, high.y),
-            part.x,
-        );
+        let upper = mix(self.coverage(low.x, low.y), self.coverage(high.x, low.y), part.x);
+        let lower = mix(self.coverage(low.x, high.y), self.coverage(high.x, high.y), part.x);
         mix(upper, lower, part.y)
     }
 
@@ -118,18 +110,10 @@ impl Mask {
         let mut bounds: Option<PixelRect> = None;
         for (y, row) in (0..).zip(self.coverage.chunks_exact(self.size.x as usize)) {
             let covered = |value: &u8| *value > 0;
-            if let (Some(first), Some(last)) =
-                (row.iter().position(covered), row.iter().rposition(covered))
-            {
-                let (min, max) = (
-                    UVec2::new(first as u32, y),
-                    UVec2::new(last as u32 + 1, y + 1),
-                );
+            if let (Some(first), Some(last)) = (row.iter().position(covered), row.iter().rposition(covered)) {
+                let (min, max) = (UVec2::new(first as u32, y), UVec2::new(last as u32 + 1, y + 1));
                 let so_far = bounds.unwrap_or(PixelRect { min, max });
-                bounds = Some(PixelRect {
-                    min: so_far.min.min(min),
-                    max: so_far.max.max(max),
-                });
+                bounds = Some(PixelRect { min: so_far.min.min(min), max: so_far.max.max(max) });
             }
         }
         bounds
@@ -138,10 +122,7 @@ impl Mask {
     /// What this mask leaves free.
     #[must_use]
     pub fn inverted(&self) -> Self {
-        Self {
-            size: self.size,
-            coverage: self.coverage.iter().map(|value| 255 - value).collect(),
-        }
+        Self { size: self.size, coverage: self.coverage.iter().map(|value| 255 - value).collect() }
     }
 
     /// Whatever either mask covers: the larger coverage.
@@ -161,23 +142,13 @@ impl Mask {
     /// When the sizes differ.
     #[must_use]
     pub fn minus(&self, other: &Self) -> Self {
-        self.combined(other, |ours, others| {
-            ((u32::from(ours) * u32::from(255 - others) + 127) / 255) as u8
-        })
+        self.combined(other, |ours, others| ((u32::from(ours) * u32::from(255 - others) + 127) / 255) as u8)
     }
 
     fn combined(&self, other: &Self, combine: impl Fn(u8, u8) -> u8) -> Self {
-        assert_eq!(
-            self.size, other.size,
-            "masks of two sizes cannot be combined"
-        );
+        assert_eq!(self.size, other.size, "masks of two sizes cannot be combined");
         let pairs = self.coverage.iter().zip(&other.coverage);
-        Self {
-            size: self.size,
-            coverage: pairs
-                .map(|(ours, others)| combine(*ours, *others))
-                .collect(),
-        }
+        Self { size: self.size, coverage: pairs.map(|(ours, others)| combine(*ours, *others)).collect() }
     }
 
     /// Grows by `radius` pixels: each pixel takes the largest coverage whose center lies within that distance.
@@ -188,25 +159,18 @@ impl Mask {
         let (width, height) = (self.size.x as usize, self.size.y as usize);
         let reach = (radius.max(0.0) as usize).min(width.max(height));
         let mut coverage = self.coverage.clone();
-        coverage
-            .par_chunks_mut(width)
-            .enumerate()
-            .for_each(|(y, out)| {
-                for from in y.saturating_sub(reach)..(y + reach + 1).min(height) {
-                    let rise = from.abs_diff(y) as f32;
-                    let run =
-                        ((radius * radius - rise * rise).max(0.0).sqrt() as usize).min(width - 1);
-                    let row = &self.coverage[from * width..][..width];
-                    for shift in 0..=run {
-                        take_larger(&mut out[shift..], row);
-                        take_larger(out, &row[shift..]);
-                    }
+        coverage.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
+            for from in y.saturating_sub(reach)..(y + reach + 1).min(height) {
+                let rise = from.abs_diff(y) as f32;
+                let run = ((radius * radius - rise * rise).max(0.0).sqrt() as usize).min(width - 1);
+                let row = &self.coverage[from * width..][..width];
+                for shift in 0..=run {
+                    take_larger(&mut out[shift..], row);
+                    take_larger(out, &row[shift..]);
                 }
-            });
-        Self {
-            size: self.size,
-            coverage,
-        }
+            }
+        });
+        Self { size: self.size, coverage }
     }
 
     /// Shrinks by `radius` pixels. The picture's frame does not eat into the mask.
@@ -241,10 +205,7 @@ fn take_larger(ours: &mut [u8], others: &[u8]) {
 
 /// Fills one pixel row of a polygon: crossings of each scan line, sorted, bound its inside in pairs.
 fn fill_row(y: f64, row: &mut [u8], edges: &[(DVec2, DVec2)]) {
-    let near: Vec<_> = edges
-        .iter()
-        .filter(|(a, b)| a.y.min(b.y) < y + 1.0 && a.y.max(b.y) > y)
-        .collect();
+    let near: Vec<_> = edges.iter().filter(|(a, b)| a.y.min(b.y) < y + 1.0 && a.y.max(b.y) > y).collect();
     if near.is_empty() {
         return;
     }
@@ -268,10 +229,7 @@ fn fill_row(y: f64, row: &mut [u8], edges: &[(DVec2, DVec2)]) {
 
 /// Adds to each pixel of a row how much of it lies between two columns.
 fn add_span(sums: &mut [f64], from: f64, to: f64) {
-    let (from, to) = (
-        from.clamp(0.0, sums.len() as f64),
-        to.clamp(0.0, sums.len() as f64),
-    );
+    let (from, to) = (from.clamp(0.0, sums.len() as f64), to.clamp(0.0, sums.len() as f64));
     for (x, sum) in (from as usize..).zip(&mut sums[from as usize..to.ceil() as usize]) {
         *sum += to.min(x as f64 + 1.0) - from.max(x as f64);
     }

@@ -4,9 +4,7 @@
 
 use std::sync::Arc;
 
-use moxcms::{
-    ColorProfile, DataColorSpace, Layout, RenderingIntent, TransformExecutor, TransformOptions,
-};
+use moxcms::{ColorProfile, DataColorSpace, Layout, RenderingIntent, TransformExecutor, TransformOptions};
 
 /// Red, green, blue and coverage, each 0–65535; gray pixels hold their value three times.
 pub(super) type Rgba16 = [u16; 4];
@@ -33,9 +31,7 @@ impl ToSrgb {
             DataColorSpace::Rgb => Layout::Rgb,
             DataColorSpace::Gray if is_gray => Layout::Gray,
             other => {
-                return Err(format!(
-                    "it is for {other:?} values, which the file does not hold"
-                ));
+                return Err(format!("it is for {other:?} values, which the file does not hold"));
             }
         };
         let options = TransformOptions {
@@ -46,10 +42,7 @@ impl ToSrgb {
         let transform = profile
             .create_transform_16bit(layout, &ColorProfile::new_srgb(), Layout::Rgb, options)
             .map_err(|error| error.to_string())?;
-        let converter = Self {
-            transform,
-            is_gray: layout == Layout::Gray,
-        };
+        let converter = Self { transform, is_gray: layout == Layout::Gray };
         Ok((!converter.is_srgb()?).then_some(converter))
     }
 
@@ -58,15 +51,10 @@ impl ToSrgb {
         let from: Vec<u16> = if self.is_gray {
             pixels.iter().map(|pixel| pixel[0]).collect()
         } else {
-            pixels
-                .iter()
-                .flat_map(|[r, g, b, _]| [*r, *g, *b])
-                .collect()
+            pixels.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect()
         };
         let mut to = vec![0; pixels.len() * 3];
-        self.transform
-            .transform(&from, &mut to)
-            .map_err(|error| error.to_string())?;
+        self.transform.transform(&from, &mut to).map_err(|error| error.to_string())?;
         for (pixel, rgb) in pixels.iter_mut().zip(to.as_chunks::<3>().0) {
             pixel[..3].copy_from_slice(rgb);
         }
@@ -81,16 +69,12 @@ impl ToSrgb {
             (0..=255).map(|code| pixel([code; 3])).collect()
         } else {
             let steps = || (0..=255).step_by(15);
-            steps()
-                .flat_map(|r| steps().flat_map(move |g| steps().map(move |b| pixel([r, g, b]))))
-                .collect()
+            steps().flat_map(|r| steps().flat_map(move |g| steps().map(move |b| pixel([r, g, b])))).collect()
         };
         let mut after = before.clone();
         self.convert(&mut after)?;
         let codes = before.as_flattened().iter().zip(after.as_flattened());
-        Ok(codes
-            .into_iter()
-            .all(|(before, after)| code8(*before).abs_diff(code8(*after)) <= 1))
+        Ok(codes.into_iter().all(|(before, after)| code8(*before).abs_diff(code8(*after)) <= 1))
     }
 }
 
@@ -99,9 +83,7 @@ mod tests {
     use super::*;
 
     fn converted(profile: &ColorProfile, is_gray: bool, codes: [u8; 3]) -> [u8; 3] {
-        let to_srgb = ToSrgb::new(&profile.encode().unwrap(), is_gray)
-            .unwrap()
-            .unwrap();
+        let to_srgb = ToSrgb::new(&profile.encode().unwrap(), is_gray).unwrap().unwrap();
         let [r, g, b] = codes.map(|code| u16::from(code) * 257);
         let mut pixels = [[r, g, b, 7]];
         to_srgb.convert(&mut pixels).unwrap();
@@ -115,30 +97,17 @@ mod tests {
         matrix.map(|row| {
             let sum: f64 = (0..3).map(|i| row[i] * light[i]).sum();
             let sum = sum.clamp(0.0, 1.0);
-            255.0
-                * if sum <= 0.003_130_8 {
-                    12.92 * sum
-                } else {
-                    1.055 * sum.powf(1.0 / 2.4) - 0.055
-                }
+            255.0 * if sum <= 0.003_130_8 { 12.92 * sum } else { 1.055 * sum.powf(1.0 / 2.4) - 0.055 }
         })
     }
 
     fn assert_near(found: [u8; 3], expected: [f64; 3]) {
-        let worst = (0..3)
-            .map(|i| (f64::from(found[i]) - expected[i]).abs())
-            .fold(0.0, f64::max);
+        let worst = (0..3).map(|i| (f64::from(found[i]) - expected[i]).abs()).fold(0.0, f64::max);
         assert!(worst <= 1.0, "{found:?} instead of {expected:.2?}");
     }
 
-    const COLORS: [[u8; 3]; 6] = [
-        [128, 128, 128],
-        [200, 120, 60],
-        [60, 140, 90],
-        [40, 80, 160],
-        [250, 240, 20],
-        [12, 10, 8],
-    ];
+    const COLORS: [[u8; 3]; 6] =
+        [[128, 128, 128], [200, 120, 60], [60, 140, 90], [40, 80, 160], [250, 240, 20], [12, 10, 8]];
 
     #[test]
     fn display_p3_becomes_srgb() {
@@ -148,33 +117,19 @@ mod tests {
             [-0.019_637_55, -0.078_636_05, 1.098_273_60],
         ];
         let linear = |s: f64| {
-            if s <= 0.040_45 {
-                s / 12.92
-            } else {
-                ((s + 0.055) / 1.055).powf(2.4)
-            }
+            if s <= 0.040_45 { s / 12.92 } else { ((s + 0.055) / 1.055).powf(2.4) }
         };
         let p3 = ColorProfile::new_display_p3();
-        assert_eq!(
-            converted(&p3, false, [255, 0, 0]),
-            [255, 0, 0],
-            "the reddest red is clipped"
-        );
+        assert_eq!(converted(&p3, false, [255, 0, 0]), [255, 0, 0], "the reddest red is clipped");
         for codes in COLORS {
-            assert_near(
-                converted(&p3, false, codes),
-                by_hand(SRGB_FROM_P3, linear, codes),
-            );
+            assert_near(converted(&p3, false, codes), by_hand(SRGB_FROM_P3, linear, codes));
         }
     }
 
     #[test]
     fn adobe_rgb_becomes_srgb() {
-        const SRGB_FROM_ADOBE: [[f64; 3]; 3] = [
-            [1.398_283_84, -0.398_283_84, 0.0],
-            [0.0, 1.0, 0.0],
-            [0.0, -0.042_938_56, 1.042_938_56],
-        ];
+        const SRGB_FROM_ADOBE: [[f64; 3]; 3] =
+            [[1.398_283_84, -0.398_283_84, 0.0], [0.0, 1.0, 0.0], [0.0, -0.042_938_56, 1.042_938_56]];
         let adobe = ColorProfile::new_adobe_rgb();
         for codes in COLORS {
             assert_near(
@@ -189,30 +144,19 @@ mod tests {
         let gamma = ColorProfile::new_gray_with_gamma(1.8);
         let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         for code in [0, 20, 100, 180, 255] {
-            assert_near(
-                converted(&gamma, true, [code; 3]),
-                by_hand(identity, |s| s.powf(1.8), [code; 3]),
-            );
+            assert_near(converted(&gamma, true, [code; 3]), by_hand(identity, |s| s.powf(1.8), [code; 3]));
         }
     }
 
     #[test]
     fn srgb_is_kept_and_wrong_profiles_are_told() {
-        let new = |bytes: &[u8], is_gray| {
-            ToSrgb::new(bytes, is_gray).map(|converter| converter.is_some())
-        };
-        assert_eq!(
-            new(&ColorProfile::new_srgb().encode().unwrap(), false),
-            Ok(false)
-        );
+        let new = |bytes: &[u8], is_gray| ToSrgb::new(bytes, is_gray).map(|converter| converter.is_some());
+        assert_eq!(new(&ColorProfile::new_srgb().encode().unwrap(), false), Ok(false));
         assert!(new(b"no profile", false).is_err());
         assert!(
-            new(
-                &ColorProfile::new_gray_with_gamma(2.2).encode().unwrap(),
-                false
-            )
-            .unwrap_err()
-            .contains("Gray")
+            new(&ColorProfile::new_gray_with_gamma(2.2).encode().unwrap(), false)
+                .unwrap_err()
+                .contains("Gray")
         );
     }
 }

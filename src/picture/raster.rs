@@ -77,13 +77,7 @@ impl Picture {
         }
         let columns = rect.min.x as usize..rect.max.x as usize;
         let rows = self.rows().skip(rect.min.y as usize).take(size.y as usize);
-        Some(Self {
-            size,
-            pixels: rows
-                .flat_map(|row| &row[columns.clone()])
-                .copied()
-                .collect(),
-        })
+        Some(Self { size, pixels: rows.flat_map(|row| &row[columns.clone()]).copied().collect() })
     }
 }
 
@@ -98,12 +92,7 @@ pub(super) fn check_count(size: UVec2, count: usize) -> Result<(), PictureError>
 /// Where the pixel in column `x`, row `y` stands among all.
 pub(super) fn index(size: UVec2, x: u32, y: u32) -> usize {
     // Without this a column too far right would quietly be one of the next row.
-    assert!(
-        x < size.x && y < size.y,
-        "pixel ({x}, {y}) lies outside a picture of {} x {}",
-        size.x,
-        size.y
-    );
+    assert!(x < size.x && y < size.y, "pixel ({x}, {y}) lies outside a picture of {} x {}", size.x, size.y);
     y as usize * size.x as usize + x as usize
 }
 
@@ -125,12 +114,7 @@ mod tests {
 
     #[test]
     fn a_crop_keeps_what_is_inside() {
-        let crop = four_by_three()
-            .crop(PixelRect {
-                min: UVec2::new(1, 1),
-                max: UVec2::new(3, 3),
-            })
-            .unwrap();
+        let crop = four_by_three().crop(PixelRect { min: UVec2::new(1, 1), max: UVec2::new(3, 3) }).unwrap();
         assert_eq!(crop.size(), UVec2::new(2, 2));
         assert_eq!(crop.pixels(), [[5, 0, 0], [6, 0, 0], [9, 0, 0], [10, 0, 0]]);
     }
@@ -138,30 +122,9 @@ mod tests {
     #[test]
     fn a_crop_of_nothing_or_beyond_the_picture_is_none() {
         let picture = four_by_three();
-        assert!(
-            picture
-                .crop(PixelRect {
-                    min: UVec2::new(2, 1),
-                    max: UVec2::new(2, 3)
-                })
-                .is_none()
-        );
-        assert!(
-            picture
-                .crop(PixelRect {
-                    min: UVec2::new(3, 3),
-                    max: UVec2::new(1, 1)
-                })
-                .is_none()
-        );
-        assert!(
-            picture
-                .crop(PixelRect {
-                    min: UVec2::ZERO,
-                    max: UVec2::new(5, 3)
-                })
-                .is_none()
-        );
+        assert!(picture.crop(PixelRect { min: UVec2::new(2, 1), max: UVec2::new(2, 3) }).is_none());
+        assert!(picture.crop(PixelRect { min: UVec2::new(3, 3), max: UVec2::new(1, 1) }).is_none());
+        assert!(picture.crop(PixelRect { min: UVec2::ZERO, max: UVec2::new(5, 3) }).is_none());
     }
 
     #[test]

@@ -58,9 +58,9 @@ impl AssetLoader for TourLoader {
         let tour = Tour::read(&text).map_err(|problems| problems.with_file(&name))?;
         let mut files = HashMap::new();
         for (place, file) in maps_of(&tour) {
-            let read = read_beside(context, &place, &file).await.map_err(|problem| {
-                Problems::from(problem).located_in(&text).with_file(&name)
-            })?;
+            let read = read_beside(context, &place, &file)
+                .await
+                .map_err(|problem| Problems::from(problem).located_in(&text).with_file(&name))?;
             files.insert(file.as_str().to_owned(), read);
         }
         let lookup = |file: &RelativePath| match files.get(file.as_str()) {

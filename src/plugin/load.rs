@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use bevy::asset::{AssetLoadFailedEvent, AssetEvent};
+use bevy::asset::{AssetEvent, AssetLoadFailedEvent};
 use bevy::camera::visibility::RenderLayers;
 use bevy::prelude::*;
 use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
@@ -55,7 +55,13 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// What a tour's root is asked for when it is shown.
-type Root = (Entity, &'static PictureTour, &'static ColorPolicy, Option<&'static RenderLayers>, Option<&'static ShownTour>);
+type Root = (
+    Entity,
+    &'static PictureTour,
+    &'static ColorPolicy,
+    Option<&'static RenderLayers>,
+    Option<&'static ShownTour>,
+);
 
 /// Start-up: builds the tours that exist.
 fn build_now(

@@ -77,8 +77,7 @@ impl Records {
                 let normal = wall.normal();
                 let along_of_foot = wall.foot.dot(wall.along);
                 let span = wall.span.map(|s| s + along_of_foot);
-                texels[0] =
-                    Vec4::new(0.0, normal.x as f32, normal.y as f32, normal.dot(wall.foot) as f32);
+                texels[0] = Vec4::new(0.0, normal.x as f32, normal.y as f32, normal.dot(wall.foot) as f32);
                 texels[1] =
                     Vec4::new(span[0] as f32, span[1] as f32, wall.rise[0] as f32, wall.rise[1] as f32);
             }

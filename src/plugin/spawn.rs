@@ -71,9 +71,11 @@ pub(super) fn show(
     for &part in before.iter().flat_map(|shown| &shown.parts) {
         commands.entity(part).try_despawn();
     }
-    let largest = assets.device.as_ref().map_or(SMALLEST_LIMIT, |device| device.limits().max_texture_dimension_2d);
+    let largest =
+        assets.device.as_ref().map_or(SMALLEST_LIMIT, |device| device.limits().max_texture_dimension_2d);
     let scene = &tour.scene;
-    let maps: Vec<Option<&Layer>> = tour.maps.components.iter().map(|maps| maps.reflection.as_ref()).collect();
+    let maps: Vec<Option<&Layer>> =
+        tour.maps.components.iter().map(|maps| maps.reflection.as_ref()).collect();
     let atlas = atlas::pack(&maps, largest);
     if atlas.scale < 1.0 {
         warn!(
@@ -103,8 +105,7 @@ pub(super) fn show(
             policy,
             depth_only: false,
         };
-        let depth =
-            TourSurfaceMaterial { tour: uniform.depth_only(), depth_only: true, ..material.clone() };
+        let depth = TourSurfaceMaterial { tour: uniform.depth_only(), depth_only: true, ..material.clone() };
         let mesh = assets.meshes.add(quad(corners(&component.surface)));
         let depth = assets.surfaces.add(depth);
         let material = assets.surfaces.add(material);
@@ -159,11 +160,24 @@ impl Spawner<'_, '_, '_> {
         let bundle = (Mesh3d(mesh), Transform::default(), Visibility::default());
         let shown = self
             .commands
-            .spawn((Name::new(name.to_owned()), part, bundle.clone(), MeshMaterial3d(material), ChildOf(self.root)))
+            .spawn((
+                Name::new(name.to_owned()),
+                part,
+                bundle.clone(),
+                MeshMaterial3d(material),
+                ChildOf(self.root),
+            ))
             .id();
         let solid = self
             .commands
-            .spawn((Name::new(format!("{name} (depth)")), part, DepthPass, bundle, MeshMaterial3d(depth), ChildOf(shown)))
+            .spawn((
+                Name::new(format!("{name} (depth)")),
+                part,
+                DepthPass,
+                bundle,
+                MeshMaterial3d(depth),
+                ChildOf(shown),
+            ))
             .id();
         for entity in [shown, solid] {
             let mut entity = self.commands.entity(entity);
@@ -215,7 +229,11 @@ fn texture(layer: &Layer, largest: u32) -> Image {
     let longest = layer.size.max_element();
     let scale = if longest > largest { largest as f32 / longest as f32 } else { 1.0 };
     if scale < 1.0 {
-        warn!("a layer of {} px is scaled to {:.0} %: the device's textures end at {largest} px", longest, 100.0 * scale);
+        warn!(
+            "a layer of {} px is scaled to {:.0} %: the device's textures end at {largest} px",
+            longest,
+            100.0 * scale
+        );
     }
     let (size, texels) = atlas::scaled_layer(layer, scale);
     image_of(

@@ -43,7 +43,8 @@ pub(super) fn look_at_tours(
             }
             let near_to_far = solved.scene.billboards_near_to_far(tour_from_view.translation);
             let distances = new_order.entry(camera).or_default();
-            let scale = (affine(transform).matrix3.inverse() * affine(tour_transform).matrix3).x_axis.length();
+            let scale =
+                (affine(transform).matrix3.inverse() * affine(tour_transform).matrix3).x_axis.length();
             let ranks = sort_distances(&solved.scene, &tour_from_view, &near_to_far, scale);
             for &part in &shown.parts {
                 for entity in children.get(part).into_iter().flatten().copied().chain([part]) {

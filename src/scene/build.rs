@@ -21,7 +21,7 @@ const FRONTAL_WITHIN: f64 = 0.05;
 const BEFORE_BACKGROUND: f64 = 0.98;
 
 /// Margin of a billboard's rectangle around its mask's box, per pixel of picture width.
-const MARGIN: f64 = 0.02;
+const MARGIN: f64 = 0.035;
 
 /// The background's walls reach this many of its distances to each side and up: past any sensible view.
 const BACKGROUND_REACH: f64 = 60.0;
@@ -126,7 +126,8 @@ fn billboard_wall(
     background_distance: f64,
     remarks: &mut Vec<String>,
 ) -> Wall {
-    let farthest = if background_distance.is_finite() { BEFORE_BACKGROUND * background_distance } else { 1e4 };
+    let farthest =
+        if background_distance.is_finite() { BEFORE_BACKGROUND * background_distance } else { 1e4 };
     let feet = plan.contact.map(|foot| {
         let ray = camera.ray(foot);
         let t = (height - ray.origin.y) / ray.direction.y;
@@ -217,14 +218,15 @@ mod tests {
         assert!(remarks.is_empty(), "{remarks:?}");
         let Surface::Wall(wall) = scene.components[2].surface else { panic!("a billboard is a wall") };
         assert!((wall.foot.y + 12.0).abs() < 1e-4, "boat at {} m instead of 12", -wall.foot.y);
-        // The box's bottom row lies 6.7 px under the contact line and has 20 px of margin; at 12 m and 800 px: 0.4 m.
-        assert!((wall.rise[0] + 26.667 * 12.0 / 800.0).abs() < 0.001, "bottom at {} m", wall.rise[0]);
-        assert!((wall.span[1] - wall.span[0] - 280.0 * 12.0 / 800.0).abs() < 1e-6, "{:?}", wall.span);
+        // The box's bottom row lies 6.7 px under the contact line and has 34 px of margin; at 12 m and 800 px: 0.6 m.
+        assert!((wall.rise[0] + 40.667 * 12.0 / 800.0).abs() < 0.001, "bottom at {} m", wall.rise[0]);
+        assert!((wall.span[1] - wall.span[0] - 308.0 * 12.0 / 800.0).abs() < 1e-6, "{:?}", wall.span);
     }
 
     #[test]
     fn a_foot_above_the_horizon_goes_before_the_background_and_says_so() {
-        let (scene, remarks) = build(&plan([PicturePoint::new(320.0, 250.0), PicturePoint::new(560.0, 250.0)]));
+        let (scene, remarks) =
+            build(&plan([PicturePoint::new(320.0, 250.0), PicturePoint::new(560.0, 250.0)]));
         let Surface::Wall(wall) = scene.components[2].surface else { panic!("a billboard is a wall") };
         assert!((wall.foot.y + 117.6).abs() < 1e-9, "{} m", wall.foot.y);
         assert!(remarks[0].contains("boat"), "{remarks:?}");
@@ -232,7 +234,8 @@ mod tests {
 
     #[test]
     fn feet_at_different_depths_make_a_yawed_wall() {
-        let (scene, _) = build(&plan([PicturePoint::new(320.0, 403.333_333), PicturePoint::new(560.0, 350.0)]));
+        let (scene, _) =
+            build(&plan([PicturePoint::new(320.0, 403.333_333), PicturePoint::new(560.0, 350.0)]));
         let Surface::Wall(wall) = scene.components[2].surface else { panic!("a billboard is a wall") };
         let ends = [-12.0, -20.0];
         let (left, right) = (wall.foot, wall.foot + wall.along * DVec2::new(4.4, 8.0).length());

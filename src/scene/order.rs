@@ -34,11 +34,9 @@ fn hides(front: &Wall, back: &Wall, eye: DVec2) -> bool {
     // Walls that touch share end points, so a point almost on the line counts for neither side.
     let slack = 1e-6 * (1.0 + front.foot.distance(eye));
     let eye_of_front = side(front, eye);
-    let back_is_beyond =
-        back.ends().iter().all(|&end| side(front, end) * eye_of_front.signum() <= slack);
+    let back_is_beyond = back.ends().iter().all(|&end| side(front, end) * eye_of_front.signum() <= slack);
     let eye_of_back = side(back, eye);
-    let front_is_before =
-        front.ends().iter().all(|&end| side(back, end) * eye_of_back.signum() >= -slack);
+    let front_is_before = front.ends().iter().all(|&end| side(back, end) * eye_of_back.signum() >= -slack);
     back_is_beyond || front_is_before
 }
 

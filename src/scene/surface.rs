@@ -143,8 +143,7 @@ mod tests {
 
     #[test]
     fn what_lies_behind_a_ray_is_not_met() {
-        let wall =
-            Wall { foot: DVec2::new(0.0, 5.0), along: DVec2::X, span: [-9.0, 9.0], rise: [-9.0, 9.0] };
+        let wall = Wall { foot: DVec2::new(0.0, 5.0), along: DVec2::X, span: [-9.0, 9.0], rise: [-9.0, 9.0] };
         let ray = Ray { origin: DVec3::ZERO, direction: DVec3::NEG_Z };
         assert_eq!(Surface::Wall(wall).meet(ray), None);
         let water = Level { height: 0.0, low: DVec2::splat(-9.0), high: DVec2::splat(9.0) };

@@ -15,12 +15,12 @@ mod relative_path;
 mod template;
 mod weather;
 
+pub use crate::camera::Easing;
 pub use annotation::{
     Background, BackgroundPlace, Band, CameraNotes, Crop, Drift, FocalLength, GroundArea, Medium, Method,
     PictureSource, ReflectionPair, Region, Scale, Sky, WaterArea,
 };
 pub use file::{ASSUMED_HEIGHT, Document, TourFile, VERSION};
-pub use crate::camera::Easing;
 pub use journey::{CameraPath, Keyframe};
 pub use object::{Course, Floating, Motion, Object, Recorded, Support, Sway, SwayKind, WaterPoint};
 pub use problem::{Place, Problem, Problems};

@@ -80,12 +80,7 @@ impl Comparison {
         let ssim_map = ssim_map(first, second);
         let mut worst = [0; 256];
         let (mut sum, mut squares, mut ssim) = (0_u64, 0_u64, 0.0);
-        let pairs = first
-            .pixels()
-            .iter()
-            .zip(second.pixels())
-            .zip(ssim_map)
-            .enumerate();
+        let pairs = first.pixels().iter().zip(second.pixels()).zip(ssim_map).enumerate();
         for (_, ((a, b), similarity)) in pairs.filter(|(i, _)| counts(*i)) {
             let differences = [0, 1, 2].map(|channel| a[channel].abs_diff(b[channel]));
             let [r, g, b] = differences.map(u64::from);
@@ -111,11 +106,7 @@ impl Comparison {
 }
 
 fn check_sizes(first: UVec2, second: UVec2) -> Result<(), CompareError> {
-    if first == second {
-        Ok(())
-    } else {
-        Err(CompareError::SizesDiffer { first, second })
-    }
+    if first == second { Ok(()) } else { Err(CompareError::SizesDiffer { first, second }) }
 }
 
 /// Taps to either side of the middle one: windows of 11 × 11.
@@ -170,8 +161,7 @@ fn add(sums: &mut Moments, weight: f64, values: &Moments) {
 /// SSIM of one window from its moments.
 fn similarity([a, b, aa, bb, ab]: Moments) -> f64 {
     let (variance_a, variance_b, covariance) = (aa - a * a, bb - b * b, ab - a * b);
-    ((2.0 * a * b + C1) * (2.0 * covariance + C2))
-        / ((a * a + b * b + C1) * (variance_a + variance_b + C2))
+    ((2.0 * a * b + C1) * (2.0 * covariance + C2)) / ((a * a + b * b + C1) * (variance_a + variance_b + C2))
 }
 
 /// Rec. 601 luma of codes, 0–255, as in the reference implementation.
@@ -242,19 +232,15 @@ mod tests {
                     }
                 }
                 let mean = |value: &dyn Fn(f64, f64) -> f64| {
-                    window
-                        .iter()
-                        .map(|(weight, a, b)| weight * value(*a, *b))
-                        .sum::<f64>()
-                        / weight_sum
+                    window.iter().map(|(weight, a, b)| weight * value(*a, *b)).sum::<f64>() / weight_sum
                 };
                 let (ma, mb) = (mean(&|a, _| a), mean(&|_, b| b));
                 let va = mean(&|a, _| (a - ma).powi(2));
                 let vb = mean(&|_, b| (b - mb).powi(2));
                 let cov = mean(&|a, b| (a - ma) * (b - mb));
                 let (c1, c2) = ((0.01_f64 * 255.0).powi(2), (0.03_f64 * 255.0).powi(2));
-                total += (2.0 * ma * mb + c1) * (2.0 * cov + c2)
-                    / ((ma * ma + mb * mb + c1) * (va + vb + c2));
+                total +=
+                    (2.0 * ma * mb + c1) * (2.0 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
             }
         }
         total / (width * height) as f64
@@ -266,10 +252,7 @@ mod tests {
         let same = Comparison::of(&picture, &picture).unwrap();
         assert_eq!(same.psnr, f64::INFINITY);
         assert!((same.ssim - 1.0).abs() < 1e-12, "{}", same.ssim);
-        assert_eq!(
-            (same.max_code_difference, same.mean_difference, same.pixels),
-            (0, 0.0, 31 * 17)
-        );
+        assert_eq!((same.max_code_difference, same.mean_difference, same.pixels), (0, 0.0, 31 * 17));
         assert_eq!(same.share_within(0), 1.0);
     }
 
@@ -282,17 +265,10 @@ mod tests {
         let found = Comparison::of(&black, &Picture::new(size, pixels).unwrap()).unwrap();
         // Squares 9 + 16 + 25 = 50 over 24 values.
         let psnr = 10.0 * (65_025.0 / (50.0 / 24.0_f64)).log10();
-        assert!(
-            (found.psnr - psnr).abs() < 1e-9,
-            "{} dB instead of {psnr} dB",
-            found.psnr
-        );
+        assert!((found.psnr - psnr).abs() < 1e-9, "{} dB instead of {psnr} dB", found.psnr);
         assert_eq!(found.max_code_difference, 5);
         assert_eq!(found.mean_difference, 0.5);
-        assert_eq!(
-            [0, 3, 4, 5].map(|codes| found.share_within(codes)),
-            [0.75, 0.875, 0.875, 1.0]
-        );
+        assert_eq!([0, 3, 4, 5].map(|codes| found.share_within(codes)), [0.75, 0.875, 0.875, 1.0]);
     }
 
     #[test]
@@ -300,14 +276,9 @@ mod tests {
         // The second size is smaller than a window, yet no side is mirrored twice.
         for size in [UVec2::new(40, 29), UVec2::new(6, 5)] {
             let (clean, noisy) = (waves(size, 0), waves(size, 40));
-            let (found, expected) = (
-                Comparison::of(&clean, &noisy).unwrap().ssim,
-                naive_ssim(&clean, &noisy),
-            );
-            assert!(
-                (found - expected).abs() < 1e-9,
-                "{found} instead of {expected} at {size}"
-            );
+            let (found, expected) =
+                (Comparison::of(&clean, &noisy).unwrap().ssim, naive_ssim(&clean, &noisy));
+            assert!((found - expected).abs() < 1e-9, "{found} instead of {expected} at {size}");
             assert!(expected < 0.95, "the noise shows: {expected}");
         }
     }
@@ -318,10 +289,7 @@ mod tests {
         let (a, b) = (100.0, 110.0);
         let expected = (2.0 * a * b + C1) / (a * a + b * b + C1);
         let found = Comparison::of(&gray(100), &gray(110)).unwrap().ssim;
-        assert!(
-            (found - expected).abs() < 1e-9,
-            "{found} instead of {expected}"
-        );
+        assert!((found - expected).abs() < 1e-9, "{found} instead of {expected}");
     }
 
     #[test]
@@ -331,31 +299,15 @@ mod tests {
         let second = Picture::new(size, vec![[11; 3], [30; 3], [90; 3]]).unwrap();
         let mask = |values: [u8; 3]| Mask::new(size, values.to_vec()).unwrap();
         let found = Comparison::over(&first, &second, &mask([255, 128, 127])).unwrap();
-        assert_eq!(
-            (
-                found.pixels,
-                found.max_code_difference,
-                found.mean_difference
-            ),
-            (2, 20, 10.5)
-        );
+        assert_eq!((found.pixels, found.max_code_difference, found.mean_difference), (2, 20, 10.5));
         let all = Comparison::over(&first, &second, &mask([255; 3])).unwrap();
         assert_eq!(all, Comparison::of(&first, &second).unwrap());
-        assert_eq!(
-            Comparison::over(&first, &second, &mask([127; 3])),
-            Err(CompareError::NothingCounted)
-        );
+        assert_eq!(Comparison::over(&first, &second, &mask([127; 3])), Err(CompareError::NothingCounted));
     }
 
     #[test]
     fn sizes_must_agree() {
-        let error =
-            Comparison::of(&waves(UVec2::new(4, 3), 0), &waves(UVec2::new(3, 4), 0)).unwrap_err();
-        assert!(
-            error
-                .to_string()
-                .contains("4 x 3 pixels cannot be compared with one of 3 x 4"),
-            "{error}"
-        );
+        let error = Comparison::of(&waves(UVec2::new(4, 3), 0), &waves(UVec2::new(3, 4), 0)).unwrap_err();
+        assert!(error.to_string().contains("4 x 3 pixels cannot be compared with one of 3 x 4"), "{error}");
     }
 }

@@ -17,10 +17,7 @@ const LEAST_DEPTH: f64 = 1e-3;
 
 impl Eye {
     pub(super) fn of(camera: &PinholeCamera) -> Self {
-        Self {
-            position: camera.pose.position,
-            picture_from_direction: camera.picture_from_world_direction(),
-        }
+        Self { position: camera.pose.position, picture_from_direction: camera.picture_from_world_direction() }
     }
 
     /// Where a point of the world is in the picture.

@@ -212,12 +212,13 @@ pub(super) fn place_cameras(
             continue;
         }
         let Ok(world_from_tour) = transforms.compute_global_transform(tour) else { continue };
-        let local = Transform::from_translation(pose.position.as_vec3())
-            .with_rotation(pose.rotation.as_quat());
+        let local =
+            Transform::from_translation(pose.position.as_vec3()).with_rotation(pose.rotation.as_quat());
         let world = world_from_tour * local;
-        let parent = parents.get(entity).ok().and_then(|parent| {
-            transforms.compute_global_transform(parent.parent()).ok()
-        });
+        let parent = parents
+            .get(entity)
+            .ok()
+            .and_then(|parent| transforms.compute_global_transform(parent.parent()).ok());
         let placed = parent.map_or_else(|| world.compute_transform(), |parent| world.reparented_to(&parent));
         let placed = Transform { scale: Vec3::ONE, ..placed };
         if current.get(entity).is_ok_and(|transform| *transform != placed) {

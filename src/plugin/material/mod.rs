@@ -120,8 +120,7 @@ fn specialize(
     layout: &MeshVertexBufferLayoutRef,
     pass: TourPass,
 ) -> Result<(), SpecializedMeshPipelineError> {
-    descriptor.vertex.buffers =
-        vec![layout.0.get_layout(&[Mesh::ATTRIBUTE_POSITION.at_shader_location(0)])?];
+    descriptor.vertex.buffers = vec![layout.0.get_layout(&[Mesh::ATTRIBUTE_POSITION.at_shader_location(0)])?];
     descriptor.primitive.cull_mode = None;
     if let Some(depth) = &mut descriptor.depth_stencil {
         depth.depth_write_enabled = Some(pass.depth_only);
