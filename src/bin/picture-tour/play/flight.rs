@@ -56,10 +56,12 @@ pub(super) fn read_keys(
             // `FreeCamera` knows no roll (the projection keeps it) and caches its own angles.
             let (yaw, pitch, _) = transform.rotation.to_euler(EulerRot::YXZ);
             transform.rotation = Quat::from_euler(EulerRot::YXZ, yaw, pitch, 0.0);
+            let mut cached = FreeCameraState::default();
+            (cached.yaw, cached.pitch) = (yaw, pitch);
             let scale = tours.iter().next().map_or(10.0, |tour| tour.scene.bounds.high.x as f32);
             commands.entity(entity).insert((
                 FreeCamera { walk_speed: 0.4 * scale, run_speed: 1.6 * scale, ..default() },
-                FreeCameraState { yaw, pitch, ..default() },
+                cached,
             ));
         } else {
             commands.entity(entity).remove::<(FreeCamera, FreeCameraState)>();

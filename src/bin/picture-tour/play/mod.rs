@@ -43,7 +43,7 @@ pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
         (true, false) => Some("there is no graphics adapter"),
     };
     if let Some(missing) = missing {
-        return render_instead(tour, missing);
+        return render_instead(tour, opened.source.tour.path.is_some(), missing);
     }
     let name = opened.name.clone();
     let title = format!("{} - picture tour", tour.as_deref().map_or("lake (demo)".into(), |path| path.to_string_lossy()));
@@ -84,14 +84,14 @@ pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
     })
 }
 
-/// Renders the path to files, and says why.
-fn render_instead(tour: Option<PathBuf>, missing: &str) -> Result<ExitCode, Failure> {
+/// Renders the path, or the first view of a tour without one, to files, and says why.
+fn render_instead(tour: Option<PathBuf>, has_path: bool, missing: &str) -> Result<ExitCode, Failure> {
     use std::io::Write as _;
     let folder = PathBuf::from(FRAMES);
     // When stderr is closed nobody listens; the frames are written all the same.
     let _ = writeln!(
         std::io::stderr().lock(),
-        "picture-tour: {missing}, so no window opens; the tour's path is rendered to {FRAMES}/ instead"
+        "picture-tour: {missing}, so no window opens; the tour is rendered to {FRAMES}/ instead"
     );
-    render::run(&RenderArguments::small_film(tour, folder))
+    render::run(&RenderArguments::small_film(tour, folder, has_path))
 }

@@ -1,0 +1,131 @@
+//! `check`: every problem of a tour, or else how well its picture is solved.
+
+use std::io;
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+use bevy_picture_tour::solve::Label;
+
+use crate::failure::Failure;
+use crate::open;
+use crate::report::Bounds;
+use crate::report::Component;
+use crate::report::Findings;
+use crate::report::Parameter;
+use crate::report::Report;
+use crate::table::Table;
+
+/// Mean lift above which a component gets a halo when the camera moves (see the library's `ComponentMaps`).
+const HALO_LIFT: f32 = 0.15;
+
+/// Checks a tour, or the demo.
+pub(crate) fn run(tour: Option<&Path>, json: bool) -> Result<ExitCode, Failure> {
+    let mut stdout = io::stdout().lock();
+    let report = match report(tour) {
+        Err(Failure::Problems(problems)) if json => {
+            let name = tour.map_or_else(String::new, |tour| tour.display().to_string());
+            Report::of_problems(name, &problems)
+        }
+        report => report?,
+    };
+    match &report.findings {
+        _ if json => {
+            let text = serde_json::to_string_pretty(&report).map_err(io::Error::from)?;
+            writeln!(stdout, "{text}")?;
+        }
+        Some(findings) => write_findings(&mut stdout, &report.tour, findings)?,
+        None => {}
+    }
+    Ok(ExitCode::from(u8::from(!report.problems.is_empty())))
+}
+
+fn report(tour: Option<&Path>) -> Result<Report, Failure> {
+    let opened = open::open(tour)?;
+    let assembled = opened.assemble(&|| false)?;
+    Ok(Report::of(opened.name, &assembled))
+}
+
+fn write_findings(out: &mut impl Write, tour: &str, findings: &Findings) -> io::Result<()> {
+    writeln!(out, "{tour}: no problems\n\nThe camera ({:?} method)", findings.method)?;
+    parameters(&findings.parameters).write(out)?;
+    if !findings.pairs.is_empty() {
+        writeln!(out, "\nReflection pairs: how far each is from where the solution puts it")?;
+        pairs(findings).write(out)?;
+    }
+    if !findings.remarks.is_empty() {
+        writeln!(out, "\nRemarks")?;
+        for remark in &findings.remarks {
+            writeln!(out, "  - {remark}")?;
+        }
+    }
+    writeln!(out, "\nReflection maps: what the picture's water shows, what was predicted, what is missing")?;
+    components(&findings.components).write(out)?;
+    let Bounds { left, right, forward, back, up, down } = findings.bounds;
+    writeln!(out, "\nThe picture holds up to these distances from where it was taken")?;
+    writeln!(
+        out,
+        "  left {left:.1} m, right {right:.1} m, forward {forward:.1} m, back {back:.1} m, up {up:.1} m, down \
+         {down:.1} m"
+    )
+}
+
+fn parameters(parameters: &[Parameter]) -> Table<5> {
+    let mut table = Table::new(["", "value", "±", "how sure", "from"]);
+    for Parameter { name, value, unit, deviation, label, from } in parameters {
+        // Heights are small lengths, distances large ones.
+        let (name, decimals) = match *name {
+            "focal_px" => ("focal length", 0),
+            "height" => ("camera above the water", 2),
+            "ground_height" => ("ground above the water", 2),
+            "background_distance" => ("distance of the background", 1),
+            angle => (angle, 2),
+        };
+        let unit = if *unit == "deg" { "°".to_owned() } else { format!(" {unit}") };
+        let deviation = match deviation {
+            Some(0.0) => "0".to_owned(),
+            Some(deviation) => format!("{deviation:.decimals$}{unit}"),
+            None => "?".to_owned(),
+        };
+        let label = match label {
+            Label::Measured => "measured",
+            Label::Weak => "weak",
+            Label::Assumed => "assumed",
+        };
+        let value = format!("{value:.decimals$}{unit}");
+        table.row([name.to_owned(), value, deviation, label.to_owned(), from.join(", ")]);
+    }
+    table
+}
+
+fn pairs(findings: &Findings) -> Table<5> {
+    let mut table = Table::new(["", "off by", "depth", "used", ""]);
+    for pair in &findings.pairs {
+        table.row([
+            pair.name.clone(),
+            format!("{:.1} px", pair.residual_px),
+            pair.depth.map_or_else(|| "far".to_owned(), |depth| format!("{depth:.1} m")),
+            if pair.kept { "yes" } else { "no" }.to_owned(),
+            pair.remark.clone().unwrap_or_default(),
+        ]);
+    }
+    table
+}
+
+fn components(components: &[Component]) -> Table<6> {
+    let percent = |share: f32| format!("{:.0} %", 100.0 * share);
+    let mut table = Table::new(["", "seen", "predicted", "missing", "mean lift", ""]);
+    for Component { name, reflection, mean_lift } in components {
+        let [seen, predicted, missing] = match reflection {
+            Some(shares) => [shares.seen, shares.predicted, shares.missing].map(percent),
+            None => std::array::from_fn(|_| "-".to_owned()),
+        };
+        let remark = match reflection {
+            _ if *mean_lift > HALO_LIFT => "a halo will show: draw its mask more exactly",
+            None => "the water shows nothing of it",
+            Some(_) => "",
+        };
+        table.row([name.clone(), seen, predicted, missing, percent(*mean_lift), remark.to_owned()]);
+    }
+    table
+}

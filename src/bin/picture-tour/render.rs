@@ -1,0 +1,92 @@
+//! `render`: views or a path as PNG frames.
+
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering;
+
+use bevy_picture_tour::camera::Fit;
+use bevy_picture_tour::camera::PinholeCamera;
+use bevy_picture_tour::camera::fitted;
+use bevy_picture_tour::picture::PngPixels;
+use bevy_picture_tour::picture::save_png;
+use glam::UVec2;
+use indicatif::ProgressBar;
+
+use crate::args::MAX_SIDE;
+use crate::args::RenderArguments;
+use crate::failure::Failure;
+use crate::frames;
+use crate::open;
+use crate::renderer::Renderer;
+
+/// Whether Ctrl-C was pressed.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// Renders what the arguments ask for.
+pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
+    watch_for_ctrl_c()?;
+    let opened = open::open(arguments.tour.as_deref())?;
+    let frames = frames::planned(arguments, &opened.source.tour)?;
+    prepare_folder(&arguments.out)?;
+
+    let size = arguments.size.unwrap_or(opened.source.picture.size()).min(UVec2::splat(MAX_SIDE));
+    let stop = || STOP.load(Ordering::Relaxed);
+    let mut renderer = Renderer::new(opened, size, arguments.samples, arguments.reference, &stop)?;
+    let taken_by = renderer.taken_by();
+    let intrinsics = fitted(&taken_by.intrinsics, size, Fit::Cover).intrinsics;
+
+    let bar = ProgressBar::new(frames.len() as u64)
+        .with_style(open::style("{msg:>26} [{bar:30}] {pos}/{len}, {eta} left"));
+    for (done, frame) in frames.iter().enumerate() {
+        if stop() {
+            bar.finish_and_clear();
+            return Err(Failure::CannotRun(format!(
+                "stopped; {done} of {} frames are done, whole, in {}",
+                frames.len(),
+                arguments.out.display()
+            )));
+        }
+        bar.set_message(frame.file.clone());
+        let camera = PinholeCamera { intrinsics, pose: frame.pose.unwrap_or(taken_by.pose) };
+        let picture = renderer.render(&camera)?;
+        save_png(&arguments.out.join(&frame.file), picture.size(), PngPixels::Rgb(picture.pixels()))
+            .map_err(|error| Failure::CannotRun(error.to_string()))?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let frames = match frames.as_slice() {
+        [only] => only.file.clone(),
+        frames => format!("{} frames", frames.len()),
+    };
+    writeln!(
+        std::io::stdout().lock(),
+        "{frames} of {} x {} px in {}",
+        size.x,
+        size.y,
+        arguments.out.display()
+    )?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Lets the first Ctrl-C end the work after the frame at hand, and a second one at once.
+fn watch_for_ctrl_c() -> Result<(), Failure> {
+    let pressed = || {
+        if STOP.swap(true, Ordering::Relaxed) {
+            std::process::exit(2);
+        }
+    };
+    ctrlc::set_handler(pressed)
+        .map_err(|error| Failure::CannotRun(format!("Ctrl-C cannot be watched for ({error}); start again")))
+}
+
+/// Makes the folder for the frames, and finds out early whether it can be written to.
+fn prepare_folder(folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).and_then(|()| tempfile::tempfile_in(folder)).map(drop).map_err(|error| {
+        Failure::CannotRun(format!(
+            "frames cannot be written to {} ({error}); name a folder that may be written to with --out",
+            folder.display()
+        ))
+    })
+}

@@ -1,0 +1,201 @@
+//! The program as people run it: arguments in; exit status, output and files out.
+//!
+//! Status 0: done. 1: the tour has problems. 2: it could not run, a tour file that is not there included.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use std::process::Output;
+use std::process::Stdio;
+
+use bevy_picture_tour::picture::Picture;
+use bevy_picture_tour::picture::PngPixels;
+use bevy_picture_tour::picture::decode_picture;
+use bevy_picture_tour::picture::save_png;
+use glam::UVec2;
+use tempfile::TempDir;
+
+const SIZE: UVec2 = UVec2::new(96, 54);
+
+/// A folder with a small picture: light above, a mirror image below.
+fn folder_with_picture() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let pixels: Vec<[u8; 3]> = (0..SIZE.y)
+        .flat_map(|y| {
+            (0..SIZE.x).map(move |x| (x as u8, if y < 30 { 8 * y as u8 } else { 250 - 4 * y as u8 }))
+        })
+        .map(|(x, y)| [2 * x, y, 120])
+        .collect();
+    save_png(&folder.path().join("pond.png"), SIZE, PngPixels::Rgb(&pixels)).unwrap();
+    folder
+}
+
+/// The same with a tour that `new` wrote.
+fn folder_with_tour() -> TempDir {
+    let folder = folder_with_picture();
+    let made = run(folder.path(), &["new", "pond.png"]);
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    folder
+}
+
+fn program(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_picture-tour"));
+    command.current_dir(folder).args(arguments).stdin(Stdio::null());
+    command
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    program(folder, arguments).output().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+fn png(path: &Path) -> Picture {
+    decode_picture(&fs::read(path).unwrap(), "frame").unwrap().picture
+}
+
+#[test]
+fn the_demo_has_no_problems_and_says_what_was_assumed() {
+    let checked = run(Path::new("."), &["check"]);
+    let text = stdout(&checked);
+    assert_eq!(checked.status.code(), Some(0), "{}", stderr(&checked));
+    for word in ["focal length", "measured", "rowing boat", "predicted", "forward"] {
+        assert!(text.contains(word), "{word:?} is missing in:\n{text}");
+    }
+}
+
+#[test]
+fn a_new_tour_checks_and_is_not_overwritten() {
+    let folder = folder_with_tour();
+    let before = fs::read(folder.path().join("pond.tour.ron")).unwrap();
+
+    let checked = run(folder.path(), &["check", "pond.tour.ron"]);
+    assert_eq!(checked.status.code(), Some(0), "{}", stderr(&checked));
+    assert!(stdout(&checked).contains("assumed"), "{}", stdout(&checked));
+
+    let again = run(folder.path(), &["new", "pond.png"]);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(stderr(&again).contains("--force"), "{}", stderr(&again));
+    assert_eq!(fs::read(folder.path().join("pond.tour.ron")).unwrap(), before);
+    assert_eq!(run(folder.path(), &["new", "pond.png", "--force"]).status.code(), Some(0));
+}
+
+#[test]
+fn a_tour_beside_another_folder_is_refused() {
+    let folder = folder_with_picture();
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    let refused = run(folder.path(), &["new", "pond.png", "--out", "sub/pond.tour.ron"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("not below it"), "{}", stderr(&refused));
+}
+
+#[test]
+fn every_problem_is_told_with_file_and_line() {
+    let folder = folder_with_tour();
+    let path = folder.path().join("pond.tour.ron");
+    let text = fs::read_to_string(&path).unwrap();
+    let text = text.replace("medium:", "medum:").replace("HeightAboveWater(1.7)", "HeightAboveWater(-1)");
+    fs::write(&path, &text).unwrap();
+    let line = |what| text.lines().position(|line| line.contains(what)).unwrap() + 1;
+
+    let checked = run(folder.path(), &["check", "pond.tour.ron"]);
+    assert_eq!(checked.status.code(), Some(1));
+    for what in ["medum", "HeightAboveWater(-1)"] {
+        let place = format!("pond.tour.ron:{}:", line(what));
+        assert!(stderr(&checked).contains(&place), "{place} is missing in:\n{}", stderr(&checked));
+    }
+    assert!(stderr(&checked).contains("`medium`"), "{}", stderr(&checked));
+
+    let json = run(folder.path(), &["check", "pond.tour.ron", "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(json.status.code(), Some(1));
+    assert_eq!(report["problems"].as_array().unwrap().len(), 2);
+    assert_eq!(report["problems"][0]["line"], line("medum"));
+}
+
+#[test]
+fn the_json_report_has_the_table_s_numbers() {
+    let folder = folder_with_tour();
+    let json = run(folder.path(), &["check", "pond.tour.ron", "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!(json.status.code(), Some(0));
+    assert_eq!(report["problems"], serde_json::json!([]));
+    assert_eq!(report["parameters"][0]["name"], "focal_px");
+    assert_eq!(report["components"][0]["name"], "background");
+    assert!(report["bounds"]["left"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn a_missing_tour_could_not_run() {
+    let checked = run(Path::new("."), &["check", "no/such.tour.ron"]);
+    assert_eq!(checked.status.code(), Some(2));
+    assert!(stderr(&checked).contains("no/such.tour.ron"), "{}", stderr(&checked));
+}
+
+#[test]
+fn views_become_frames_of_the_asked_size() {
+    let folder = folder_with_tour();
+    let views = r#"[{"name": "left", "position": [-0.4, 1.7, 0]},
+                    {"name": "in front", "position": [0, 1.7, -1], "yaw_deg": 3}]"#;
+    fs::write(folder.path().join("views.json"), views).unwrap();
+    let arguments =
+        ["--reference", "--samples", "4", "--size", "64x36", "--views", "views.json", "--out", "a/b"];
+    let rendered = run(folder.path(), &[&["render", "pond.tour.ron"], &arguments[..]].concat());
+    assert_eq!(rendered.status.code(), Some(0), "{}", stderr(&rendered));
+    let frames = ["left.png", "in_front.png"].map(|name| png(&folder.path().join("a/b").join(name)));
+    assert_eq!(frames.each_ref().map(Picture::size), [UVec2::new(64, 36); 2]);
+    assert_ne!(frames[0], frames[1]);
+}
+
+#[test]
+fn a_part_of_the_path_is_rendered_under_its_own_numbers() {
+    let folder = folder_with_tour();
+    let arguments =
+        ["--path", "--fps", "2", "--frames", "3..5", "--reference", "--size", "32x18", "--out", "o"];
+    let rendered = run(folder.path(), &[&["render", "pond.tour.ron"], &arguments[..]].concat());
+    assert_eq!(rendered.status.code(), Some(0), "{}", stderr(&rendered));
+    let mut files: Vec<_> =
+        fs::read_dir(folder.path().join("o")).unwrap().map(|file| file.unwrap().file_name()).collect();
+    files.sort();
+    assert_eq!(files, ["frame_00003.png", "frame_00004.png"]);
+}
+
+#[test]
+fn bad_views_are_refused_with_their_index() {
+    let folder = folder_with_tour();
+    let views = r#"[{"name": "a", "position": [0, 1, 0]}, {"name": "b"}]"#;
+    fs::write(folder.path().join("views.json"), views).unwrap();
+    let arguments = ["render", "pond.tour.ron", "--reference", "--views", "views.json", "--out", "o"];
+    let refused = run(folder.path(), &arguments);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("views.json: views[1]"), "{}", stderr(&refused));
+}
+
+#[test]
+fn nobody_reading_is_no_fault() {
+    let folder = folder_with_tour();
+    let mut child = program(folder.path(), &["check", "pond.tour.ron"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let ended = child.wait_with_output().unwrap();
+    assert_eq!(ended.status.code(), Some(0), "{}", stderr(&ended));
+    assert_eq!(stderr(&ended), "");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_that_is_a_file_is_refused() {
+    let folder = folder_with_tour();
+    let refused = run(folder.path(), &["render", "pond.tour.ron", "--reference", "--out", "pond.png"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(stderr(&refused).contains("pond.png"), "{}", stderr(&refused));
+}
