@@ -1,6 +1,7 @@
 //! Frames without a window: a camera that leans aside, on the GPU, into PNG files.
 //!
 //! `cargo run --release --features app --example headless_frames -- OUT_DIR`
+#![expect(clippy::print_stdout, reason = "a program prints")]
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -2,6 +2,7 @@
 //!
 //! `cargo run --release --features app --example trace_reference -- OUT.png`
 //! (`--no-default-features` instead of `--features app` builds it without Bevy.)
+#![expect(clippy::print_stdout, reason = "a program prints")]
 
 use std::path::{Path, PathBuf};
 

@@ -3,6 +3,7 @@
 //!
 //! `cargo run --release --features app --example evaluate -- WORLD_DIR [--reference] [--known-focal] [--out DIR]
 //! [--json FILE]`
+#![expect(clippy::print_stdout, reason = "a program prints")]
 
 mod world;
 

@@ -117,7 +117,7 @@ fn pairs(tour: &tour::Tour) -> Vec<AnnotatedPair> {
                 Some(Carrier::Band(_)) | None => PairPlane::Free,
             },
             point_deviation_px: MARK_PX,
-            reflection_deviation_px: [MARK_PX, RIPPLED_PX].into(),
+            reflection_deviation_px: [MARK_PX, RIPPLED_PX],
         })
         .collect()
 }

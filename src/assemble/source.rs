@@ -51,16 +51,16 @@ impl TourSource {
     ) -> Result<Self, Problems> {
         let load = |place: &str, file: &RelativePath| {
             read(file).map_err(|error| {
-                Problem::new(
+                Box::new(Problem::new(
                     place,
                     format!("\"{}\"", file.as_str()),
                     format!("the file cannot be read: {error}"),
                     "put the file beside the tour, or write the path it has, relative to the tour's folder",
-                )
+                ))
             })
         };
         let file = &tour.picture.file;
-        let bytes = load("picture.file", file)?;
+        let bytes = load("picture.file", file).map_err(|problem| *problem)?;
         let decoded = decode_picture(&bytes, file.as_str())
             .map_err(|error| from_picture_error("picture.file", file.as_str(), &error))?;
         let size = decoded.picture.size();
@@ -75,9 +75,9 @@ impl TourSource {
             (Region::Mask(file), _) => {
                 let mask = load(place, file).and_then(|bytes| {
                     decode_mask(&bytes, file.as_str(), size)
-                        .map_err(|error| from_picture_error(place, file.as_str(), &error))
+                        .map_err(|error| Box::new(from_picture_error(place, file.as_str(), &error)))
                 });
-                mask.map(|mask| cropped(&mask, rect)).map_err(|problem| problems.push(problem)).ok()
+                mask.map(|mask| cropped(&mask, rect)).map_err(|problem| problems.push(*problem)).ok()
             }
             (_, Region::Polygon(corners)) => Mask::from_polygon(rect.size(), corners)
                 .map_err(|error| problems.push(from_picture_error(place, "the polygon", &error)))

@@ -1,6 +1,6 @@
 //! The pinhole camera: where it stands, how it projects, how it moves.
 //!
-//! World: metres, x right, y up, −z into the picture; resting water at y = 0. View: x right, y up, −z ahead.
+//! World: meters, x right, y up, −z into the picture; resting water at y = 0. View: x right, y up, −z ahead.
 //! Pictures are undistorted and have square pixels.
 
 mod fit;
@@ -20,7 +20,7 @@ use crate::picture::PicturePoint;
 /// A ray: points `origin + t · direction`, t ≥ 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where it starts, metres.
+    /// Where it starts, meters.
     pub origin: DVec3,
     /// Where it goes; need not be of unit length, then t is in units of its length.
     pub direction: DVec3,
@@ -64,7 +64,7 @@ impl Intrinsics {
 
     /// The projection into Bevy's clip space that shows what the picture shows: reverse-z, the far plane at infinity.
     ///
-    /// `near` is the view depth of the near plane in metres, above 0.
+    /// `near` is the view depth of the near plane in meters, above 0.
     #[must_use]
     pub fn clip_from_view(&self, near: f64) -> DMat4 {
         let (size, c) = (self.size.as_dvec2(), self.principal.0);

@@ -42,7 +42,7 @@ pub struct Keyframe {
     pub easing: Easing,
 }
 
-/// A change of position in metres and of yaw, pitch and roll in radians; or that per second.
+/// A change of position in meters and of yaw, pitch and roll in radians; or that per second.
 type Motion = [DVec3; 2];
 
 const REST: Motion = [DVec3::ZERO; 2];

@@ -25,7 +25,7 @@ fn path(looped: bool) -> CameraPath {
     CameraPath::new(keyframes(), looped).unwrap()
 }
 
-/// Metres and radians between two poses.
+/// Meters and radians between two poses.
 fn apart(a: &CameraPose, b: &CameraPose) -> f64 {
     let turn = 2.0 * (a.rotation.inverse() * b.rotation).xyz().length();
     a.position.distance(b.position).max(turn)

@@ -8,7 +8,7 @@ use glam::{DQuat, DVec3, EulerRot};
 /// camera to its left (the picture turns clockwise).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraPose {
-    /// Metres; y is the height above the resting water.
+    /// Meters; y is the height above the resting water.
     pub position: DVec3,
     /// World from view, of unit length.
     pub rotation: DQuat,

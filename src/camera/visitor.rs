@@ -12,7 +12,7 @@ use super::CameraPose;
 /// How a visitor moves. Lengths are shares of `scale`, so that a pond and a fjord feel alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VisitorSettings {
-    /// Metres that are near in this scene, such as the distance of its nearest object; above 0.
+    /// Meters that are near in this scene, such as the distance of its nearest object; above 0.
     pub scale: f64,
     /// Speed sideways and up at a full wish, in scales per second, at least 0.
     pub lean_speed: f64,
@@ -63,7 +63,7 @@ pub struct VisitorWish {
 /// Where a visitor is, relative to the home pose, and how fast. The default is at rest at home.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Visitor {
-    /// Metres along the world's x, y and z; yaw and pitch in radians; all before they are softened at their limits.
+    /// Meters along the world's x, y and z; yaw and pitch in radians; all before they are softened at their limits.
     axes: [Glide; 5],
     homing: bool,
 }
@@ -81,7 +81,7 @@ const SOFT: f64 = 0.25;
 /// How far beyond its reach an axis may be wanted, as a share of it: enough to come close to the limit, so little that
 /// turning back answers at once.
 const BEYOND: f64 = 1.25;
-/// Nearer to home than this, in metres and radians, one is at home.
+/// Nearer to home than this, in meters and radians, one is at home.
 const ARRIVED: f64 = 1e-4;
 /// Steepest view in radians, so that no home's own pitch brings a visitor to stand on the head.
 const STEEPEST: f64 = 1.5;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use super::Grid;
 use super::coverage::{Coverage, grow};
 use super::mirror::mirrored;
-use super::zones::{Zone, fringe, reach_below, seen_owner};
+use super::zones::{Zone, fringe, seen_owner};
 use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::scene::Role;
@@ -37,7 +37,7 @@ pub(super) fn take_in_bodies(
         let Some(zone) = zone.as_mut().filter(|_| scene.components[index].role == Role::Billboard) else {
             continue;
         };
-        let near = grow(&zone.coverage, reach, reach_below(size));
+        let near = grow(&zone.coverage, reach, size);
         let body = Body { picture, owner: &owner, index: index as u8, near, reach };
         let surface = &scene.components[index].surface;
         let below = |pixel: IVec2| {
@@ -71,7 +71,7 @@ pub(super) fn take_in_bodies(
             }
         }
         close(&mut zone.coverage, |pixel| coverage.water.get(pixel) == Some(true));
-        zone.grown = grow(&zone.coverage, fringe(size), reach_below(size));
+        zone.grown = grow(&zone.coverage, fringe(size), size);
     }
     seen_owner(scene, coverage, zones)
 }

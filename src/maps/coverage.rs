@@ -6,6 +6,7 @@
 use glam::{IVec2, UVec2};
 
 use super::Grid;
+use super::beyond::frame;
 use super::fill::push_pull;
 use crate::picture::Mask;
 use crate::picture::PicturePoint;
@@ -115,15 +116,17 @@ impl Coverage {
 
 /// Pixels whose ray meets the background before the water; all of them without water.
 fn above_contact(scene: &TourScene, size: UVec2) -> Grid<bool> {
-    let background = scene.background().surface;
-    Grid::from_fn(IVec2::ZERO, size, |pixel| {
-        let ray = scene.camera.ray(PicturePoint::pixel_center(pixel.x.into(), pixel.y.into()));
-        if !scene.water || ray.direction.y >= 0.0 {
-            return true;
-        }
-        let to_water = -ray.origin.y / ray.direction.y;
-        background.meet_plane(ray).is_some_and(|t| t <= to_water)
-    })
+    Grid::from_fn(IVec2::ZERO, size, |pixel| is_above_contact(scene, pixel))
+}
+
+/// Whether a pixel's ray, of the picture or beyond, meets the background before the water.
+pub(super) fn is_above_contact(scene: &TourScene, pixel: IVec2) -> bool {
+    let ray = scene.camera.ray(PicturePoint::pixel_center(pixel.x.into(), pixel.y.into()));
+    if !scene.water || ray.direction.y >= 0.0 {
+        return true;
+    }
+    let to_water = -ray.origin.y / ray.direction.y;
+    scene.background().surface.meet_plane(ray).is_some_and(|t| t <= to_water)
 }
 
 /// Coverage of background and ground, guessed behind billboards from what is seen around them.
@@ -218,10 +221,11 @@ fn dusted(coverage: u8) -> u8 {
     }
 }
 
-/// Coverage with a fringe around it: cells within `radius` of any coverage get at least 1.
+/// Coverage with a fringe around it: cells within `radius` of any coverage get at least 1, inside the maps' frame.
 pub(super) fn grow(grid: &Grid<u8>, radius: i32, picture: UVec2) -> Grid<u8> {
-    let low = (grid.origin - radius).max(IVec2::ZERO - 1);
-    let high = (grid.origin + grid.size.as_ivec2() + radius).min(picture.as_ivec2() + 1).max(low + 1);
+    let (least, most) = frame(picture);
+    let low = (grid.origin - radius).max(least);
+    let high = (grid.origin + grid.size.as_ivec2() + radius).min(most).max(low + 1);
     let any = |from: &Grid<u8>, pixel: IVec2, step: IVec2| {
         (-radius..=radius).any(|i| from.get(pixel + i * step).unwrap_or(0) > 0)
     };

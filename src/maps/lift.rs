@@ -40,7 +40,7 @@ pub(super) fn lifted(target: [u8; 3], behind: [f32; 3], alpha: u8) -> [u8; 4] {
     [color[0], color[1], color[2], stored as u8]
 }
 
-/// The code whose blend shows `target`; among neighbours the first that rounds to it.
+/// The code whose blend shows `target`; among neighbors the first that rounds to it.
 fn nearest_code(wanted: f32, target: u8, behind: f32, a: f32) -> u8 {
     let exact = srgb_from_linear(((wanted - (1.0 - a) * behind) / a).clamp(0.0, 1.0));
     let shows = |code: u8| srgb_from_linear(a * linear_from_srgb(code) + (1.0 - a) * behind) == target;

@@ -4,6 +4,7 @@
 //! resampled when maps are built, so the first view is the picture itself whatever the solve said (architecture.md,
 //! decision 1). Laid over each other far to near, the layers show the picture to the code.
 
+mod beyond;
 mod bodies;
 mod coverage;
 mod fill;
@@ -108,8 +109,9 @@ impl Maps {
         }
         step(0.8, "laying the layers over each other")?;
         reflection::lift_reflections(scene, picture, &coverage, &zones, &mut reflections);
-        let mut textures: Vec<_> =
-            (0..count).map(|index| texture::texture_map(picture, &coverage, &direct[index], index)).collect();
+        let mut textures: Vec<_> = (0..count)
+            .map(|index| texture::texture_map(scene, picture, &coverage, &direct[index], index))
+            .collect();
         texture::lift_textures(scene, picture, &coverage, &zones, &mut textures, &reflections);
         let components = textures
             .into_iter()

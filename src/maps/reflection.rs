@@ -1,16 +1,17 @@
 //! Reflection maps that know where each texel came from.
 //!
 //! A texel is *seen* when the picture's water shows it and nothing nearer, or its mirror image, stands before it; else
-//! *predicted* from the component's own texture by the fitted water, brought to its seen neighbours by the membrane of
+//! *predicted* from the component's own texture by the fitted water, brought to its seen neighbors by the membrane of
 //! what the prediction misses there; *missing* when the texture had to be made up too.
 
-use glam::{DVec3, IVec2, UVec2};
+use glam::{DVec3, IVec2};
 
+use super::beyond::frame;
 use super::coverage::Coverage;
 use super::fill::push_pull;
 use super::mirror::{mirrored, reflection_of};
 use super::tint::{Tint, TintSample};
-use super::zones::{Zone, reach_below, stack_at};
+use super::zones::{Zone, stack_at};
 use super::{Grid, Layer, lift};
 use crate::picture::Picture;
 use crate::picture::PicturePoint;
@@ -118,9 +119,11 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
     let (origin, extent) = match &zones[index] {
         Some(zone) => (zone.grown.origin, zone.grown.size),
         None => {
+            // From the highest water of the picture, on which the mirrored background begins.
             let top = coverage.above.cells.iter().position(|above| !above).unwrap_or(0) / size.x as usize;
-            let top = top.saturating_sub(2);
-            (IVec2::new(0, top as i32), reach_below(size) - UVec2::new(0, top as u32))
+            let (low, high) = frame(size);
+            let low = IVec2::new(low.x, (top as i32 - 2).max(low.y));
+            (low, (high - low).as_uvec2())
         }
     };
     let texels = Grid::from_fn(origin, extent, |pixel| {

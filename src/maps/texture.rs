@@ -2,7 +2,8 @@
 
 use glam::IVec2;
 
-use super::coverage::Coverage;
+use super::beyond::{folded, prolonged};
+use super::coverage::{Coverage, is_above_contact};
 use super::fill::push_pull;
 use super::reflection::{background_from_water, composite, linear};
 use super::tint::Tint;
@@ -40,7 +41,7 @@ pub(super) fn filled_colors(
         fill_from_water(scene, picture, coverage, tint, owner, &mut colors, &mut known);
     }
     push_pull(colors.size.x as usize, &mut colors.cells, &known);
-    colors
+    if scene.components[index].role == Role::Billboard { colors } else { prolonged(&colors) }
 }
 
 /// Fills hidden background from its mirror image; the fit's local miss is taken out by a membrane, so that no seam
@@ -85,6 +86,7 @@ fn fill_from_water(
 
 /// A component's texture map before the lift: the picture where it shows the component alone, the fill elsewhere.
 pub(super) fn texture_map(
+    scene: &TourScene,
     picture: &Picture,
     coverage: &Coverage,
     colors: &Grid<[f32; 3]>,
@@ -97,8 +99,20 @@ pub(super) fn texture_map(
         } else {
             colors.get(pixel).unwrap_or_default().map(srgb_from_linear)
         };
-        [r, g, b, coverage.alpha[index].get(pixel).unwrap_or(0)]
+        let alpha = coverage.alpha[index].get(pixel).unwrap_or_else(|| match scene.components[index].role {
+            Role::Billboard => 0,
+            Role::Background if is_above_contact(scene, pixel) => 255,
+            _ => beyond(coverage, index, pixel, picture),
+        });
+        [r, g, b, alpha]
     })
+}
+
+/// Coverage of a framework plane beyond the picture: that of the pixel which is folded there.
+fn beyond(coverage: &Coverage, index: usize, pixel: IVec2, picture: &Picture) -> u8 {
+    let inside = folded(pixel, picture.size());
+    let hangs = !coverage.above.get(inside).unwrap_or(false);
+    if index > 0 || hangs { coverage.alpha[index].get(inside).unwrap_or(0) } else { 0 }
 }
 
 /// Raises the nearest layer at every pixel until the first view shows the picture.

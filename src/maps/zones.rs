@@ -5,16 +5,13 @@
 use glam::{IVec2, UVec2};
 
 use super::Grid;
+use super::beyond::frame;
 use super::coverage::{Coverage, grow, is_mirrored};
 use super::mirror::mirrored;
 use crate::picture::PicturePoint;
 use crate::scene::Surface;
 use crate::scene::TourScene;
 use crate::scene::mirror;
-
-/// How far reflection maps reach below the picture's lower border, as a share of its height: what a camera sees that
-/// looks further down or steps back.
-const BELOW_FRAME: f64 = 0.25;
 
 /// Width of the band around a mirrored outline that is given to the nearer component, per pixel of picture width. Real
 /// bodies are not flat: their mirror image leaves the mirrored mask by some pixels.
@@ -47,8 +44,7 @@ pub(super) fn zones(scene: &TourScene, coverage: &Coverage) -> Vec<Option<Zone>>
                 mirrored(scene, &component.surface, point)
                     .map_or(0, |found| (255.0 * alpha.coverage(found.direct)).round() as u8)
             });
-            let frame = reach_below(size);
-            Some(Zone { grown: grow(&zone, fringe, frame), coverage: zone })
+            Some(Zone { grown: grow(&zone, fringe, size), coverage: zone })
         })
         .collect()
 }
@@ -58,16 +54,11 @@ pub(super) fn fringe(size: UVec2) -> i32 {
     (MIRROR_FRINGE * f64::from(size.x)).round().max(2.0) as i32
 }
 
-/// The size of the picture with the strip below it that reflection maps cover.
-pub(super) fn reach_below(size: UVec2) -> UVec2 {
-    UVec2::new(size.x, size.y + (BELOW_FRAME * f64::from(size.y)) as u32)
-}
-
 /// The box of pixels in which a surface's mirror image can lie, low and high corner.
 fn mirror_box(scene: &TourScene, surface: &Surface) -> Option<(IVec2, IVec2)> {
-    let frame = reach_below(scene.camera.intrinsics.size).as_ivec2();
+    let (least, most) = frame(scene.camera.intrinsics.size);
     let Surface::Wall(wall) = surface else {
-        return Some((IVec2::ZERO, frame));
+        return Some((least, most));
     };
     let (mut low, mut high) = (IVec2::MAX, IVec2::MIN);
     for s in wall.span {
@@ -81,7 +72,7 @@ fn mirror_box(scene: &TourScene, surface: &Surface) -> Option<(IVec2, IVec2)> {
             high = high.max(seen.ceil().as_ivec2() + 2);
         }
     }
-    let (low, high) = (low.max(IVec2::ZERO), high.min(frame));
+    let (low, high) = (low.max(least), high.min(most));
     low.cmplt(high).all().then_some((low, high))
 }
 

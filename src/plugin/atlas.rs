@@ -139,6 +139,6 @@ mod tests {
         let big = layer(300, 200, 9);
         let atlas = pack(&[Some(&big), Some(&big)], 256);
         assert!(atlas.scale < 1.0 && atlas.size.max_element() <= 256, "{} at {}", atlas.size, atlas.scale);
-        assert!(atlas.texels.iter().any(|texel| *texel == [9, 9, 9, 255]));
+        assert!(atlas.texels.contains(&[9, 9, 9, 255]));
     }
 }

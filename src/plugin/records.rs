@@ -104,7 +104,7 @@ impl Records {
 
     /// The texture's bytes.
     pub(super) fn bytes(&self) -> Vec<u8> {
-        self.0.iter().flat_map(|texel| texel.to_array()).flat_map(f32::to_le_bytes).collect()
+        self.0.iter().flat_map(Vec4::to_array).flat_map(f32::to_le_bytes).collect()
     }
 
     /// A texture that holds these records.

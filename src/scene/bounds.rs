@@ -1,6 +1,6 @@
 //! Where the picture still holds: how far a camera may go before what it shows is mostly made up.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::{Role, SceneComponent, ScenePlan, Surface};
 
@@ -10,11 +10,21 @@ use super::{Role, SceneComponent, ScenePlan, Surface};
 /// the move over that distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraBounds {
-    /// Lowest corner, metres.
+    /// Lowest corner, meters.
     pub low: DVec3,
-    /// Highest corner, metres.
+    /// Highest corner, meters.
     pub high: DVec3,
+    /// Distance of the nearest billboard, meters, above 0: the length by which moves in this scene are measured.
+    pub nearest: f64,
+    /// How far a visitor may turn from the picture's own view, yaw and pitch in radians: maps end beyond.
+    pub look: DVec2,
 }
+
+/// How far maps reach beyond the picture's left, right and upper border, as a share of its width and height.
+pub const BEYOND_BORDER: f64 = 0.15;
+
+/// Share of what lies beyond the border that turning may show; leaning shows some more.
+const LOOK: f64 = 0.8;
 
 /// Share of the nearest billboard's distance that a camera may go sideways.
 const SIDEWAYS: f64 = 0.35;
@@ -44,15 +54,12 @@ impl CameraBounds {
             .max(0.5);
         let ground = plan.ground_height.unwrap_or(0.0);
         let low = ground + HEIGHT[0] * (at.y - ground);
+        let lens = &plan.camera.intrinsics;
         Self {
+            nearest,
+            look: lens.size.as_dvec2() * (LOOK * BEYOND_BORDER / lens.focal_px),
             low: DVec3::new(at.x - SIDEWAYS * nearest, low, at.z - FORWARD * nearest),
             high: DVec3::new(at.x + SIDEWAYS * nearest, HEIGHT[1] * at.y, at.z + BACK * nearest),
         }
-    }
-
-    /// The nearest point inside.
-    #[must_use]
-    pub fn clamp(&self, position: DVec3) -> DVec3 {
-        position.clamp(self.low, self.high)
     }
 }

@@ -1,4 +1,4 @@
-//! From what was solved and marked to planes in metres.
+//! From what was solved and marked to planes in meters.
 //!
 //! Every component gets a place, whatever was marked: what cannot be placed (a foot at the horizon) goes to just in
 //! front of the background, with a remark.
@@ -53,9 +53,9 @@ pub struct ScenePlan {
     pub camera: PinholeCamera,
     /// Whether there is water at y = 0.
     pub water: bool,
-    /// Height of the ground above the water, metres, if there is ground.
+    /// Height of the ground above the water, meters, if there is ground.
     pub ground_height: Option<f64>,
-    /// Distance of the background along −z, metres; infinite when it shows no parallax.
+    /// Distance of the background along −z, meters; infinite when it shows no parallax.
     pub background_distance: f64,
     /// What stands in the scene, at most [`MAX_COMPONENTS`] with background and ground.
     pub billboards: Vec<BillboardPlan>,
@@ -155,7 +155,7 @@ fn billboard_wall(
     };
     let unbounded = [f64::NEG_INFINITY, f64::INFINITY];
     let plane = Wall { foot, along, span: unbounded, rise: unbounded };
-    let [low, high] = plan.mask_box.map(|corner| corner.as_dvec2());
+    let [low, high] = [plan.mask_box[0].as_dvec2(), plan.mask_box[1].as_dvec2()];
     let mut span = [f64::INFINITY, f64::NEG_INFINITY];
     let mut rise = span;
     let margin = f64::from(margin_px(camera.intrinsics.size));

@@ -1,4 +1,4 @@
-//! The scene in metres: the framework (water, ground, background) and the billboards that stand in it.
+//! The scene in meters: the framework (water, ground, background) and the billboards that stand in it.
 //!
 //! World: x right, y up, −z into the picture; resting water at y = 0; the picture was taken from (0, h, 0). The water
 //! is the plane y = 0 itself and no component; everything else is one. Component 0 is always the background, the last
@@ -9,7 +9,7 @@ mod build;
 mod order;
 mod surface;
 
-pub use bounds::CameraBounds;
+pub use bounds::{BEYOND_BORDER, CameraBounds};
 pub use build::{BillboardPlan, MAX_COMPONENTS, ScenePlan, build, margin_px};
 pub use order::near_to_far;
 pub use surface::{Level, Surface, Wall, mirror};
@@ -64,7 +64,7 @@ impl TourScene {
         self.components.iter().position(|component| component.role == Role::Ground)
     }
 
-    /// The billboards' indices, near to far as seen from `position` (metres; only x and z matter).
+    /// The billboards' indices, near to far as seen from `position` (meters; only x and z matter).
     #[must_use]
     pub fn billboards_near_to_far(&self, position: glam::DVec3) -> Vec<usize> {
         let walls: Vec<(usize, &Wall)> = self

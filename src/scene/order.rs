@@ -7,7 +7,7 @@ use glam::DVec2;
 
 use super::Wall;
 
-/// Sorts walls near to far as seen from `eye`, an (x, z) point in metres; returns their indices.
+/// Sorts walls near to far as seen from `eye`, an (x, z) point in meters; returns their indices.
 ///
 /// A wall comes before every wall that it hides. Where walls hide each other in a circle (they cross, or lie in one
 /// line), the one whose contact line comes nearest to `eye` goes first.
@@ -59,7 +59,7 @@ fn directions_overlap(a: &Wall, b: &Wall, eye: DVec2) -> bool {
         .any(|turn| a[0] + turn < b[1] && b[0] < a[1] + turn)
 }
 
-/// Distance from `eye` to the nearest point of the contact line, metres.
+/// Distance from `eye` to the nearest point of the contact line, meters.
 fn distance(wall: &Wall, eye: DVec2) -> f64 {
     let s = (eye - wall.foot).dot(wall.along).clamp(wall.span[0], wall.span[1]);
     (wall.foot + s * wall.along).distance(eye)

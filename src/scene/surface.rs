@@ -7,20 +7,20 @@ use crate::camera::Ray;
 /// A vertical rectangle through a contact line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall {
-    /// A point of the contact line's prolongation, (x, z) in metres.
+    /// A point of the contact line's prolongation, (x, z) in meters.
     pub foot: DVec2,
     /// Unit vector (x, z) along the contact line, from its left to its right end as the picture shows it.
     pub along: DVec2,
-    /// Extent along the contact line from `foot`, metres, low to high.
+    /// Extent along the contact line from `foot`, meters, low to high.
     pub span: [f64; 2],
-    /// Extent of height, metres above the resting water, low to high. Below 0 is what hangs under the contact line.
+    /// Extent of height, meters above the resting water, low to high. Below 0 is what hangs under the contact line.
     pub rise: [f64; 2],
 }
 
 /// A level rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
-    /// Metres above the resting water.
+    /// Meters above the resting water.
     pub height: f64,
     /// Corner with the lowest x and z.
     pub low: DVec2,
@@ -52,20 +52,20 @@ impl Wall {
         DVec2::new(-self.along.y, self.along.x)
     }
 
-    /// The two ends of the contact line, (x, z) in metres.
+    /// The two ends of the contact line, (x, z) in meters.
     #[must_use]
     pub fn ends(&self) -> [DVec2; 2] {
         self.span.map(|s| self.foot + s * self.along)
     }
 
-    /// The point `s` metres along and `y` metres high.
+    /// The point `s` meters along and `y` meters high.
     #[must_use]
     pub fn point(&self, s: f64, y: f64) -> DVec3 {
         let ground = self.foot + s * self.along;
         DVec3::new(ground.x, y, ground.y)
     }
 
-    /// How far along the contact line a point of the plane lies, metres from `foot`.
+    /// How far along the contact line a point of the plane lies, meters from `foot`.
     #[must_use]
     pub fn along_of(&self, point: DVec3) -> f64 {
         (DVec2::new(point.x, point.z) - self.foot).dot(self.along)

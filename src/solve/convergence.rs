@@ -45,10 +45,11 @@ const LARGEST_TAN_PITCH: f64 = 1.73;
 
 impl Line {
     fn new(annotations: &Annotations, pair: &AnnotatedPair) -> Self {
-        let centred = |p: DVec2| DVec2::new(p.x - annotations.principal.x(), annotations.principal.y() - p.y);
+        let centered =
+            |p: DVec2| DVec2::new(p.x - annotations.principal.x(), annotations.principal.y() - p.y);
         Self {
-            point: centred(pair.point.0),
-            reflection: centred(pair.reflection.0),
+            point: centered(pair.point.0),
+            reflection: centered(pair.reflection.0),
             point_deviation: pair.point_deviation_px,
             reflection_deviation: DVec2::from_array(pair.reflection_deviation_px),
         }

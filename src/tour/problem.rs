@@ -73,7 +73,9 @@ impl fmt::Display for Problem {
             f.write_str(if self.place.path.is_empty() { ": " } else { " = " })?;
             f.write_str(&self.value)?;
         }
-        write!(f, ": {}; {}", self.message, self.advice)
+        write!(f, ": {}", self.message)?;
+        // A picture's errors carry their advice in the message.
+        if self.advice.is_empty() { Ok(()) } else { write!(f, "; {}", self.advice) }
     }
 }
 

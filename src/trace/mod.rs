@@ -178,8 +178,8 @@ impl Accumulated {
     /// Adds a straight-alpha texel behind what is there.
     fn add(&mut self, texel: [f32; 4]) {
         let weight = self.left * texel[3];
-        for c in 0..3 {
-            self.color[c] += weight * texel[c];
+        for (sum, channel) in self.color.iter_mut().zip(texel) {
+            *sum += weight * channel;
         }
         self.left -= weight;
     }

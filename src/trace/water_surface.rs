@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 /// The water's surface at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaterPoint {
-    /// Metres above the resting water.
+    /// Meters above the resting water.
     pub height: f64,
     /// Unit normal, y up.
     pub normal: DVec3,
@@ -13,7 +13,7 @@ pub struct WaterPoint {
 
 /// Height and normal of the water anywhere, at one moment.
 pub trait WaterSurface: Sync {
-    /// The surface at a point (x, z) of the world, metres.
+    /// The surface at a point (x, z) of the world, meters.
     fn at(&self, ground: DVec2) -> WaterPoint;
 }
 

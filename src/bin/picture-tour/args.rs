@@ -72,12 +72,12 @@ pub(crate) struct RenderArguments {
     /// Folder for the frames; made if it is not there
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Render these views: a JSON list of {"name", "position": [x, y, z], "yaw_deg", "pitch_deg", "roll_deg"}
+    /// Render these views: a JSON list of `{"name", "position": [x, y, z], "yaw_deg", "pitch_deg", "roll_deg"}`
     ///
     /// Meters: x right, y above the water, -z into the picture. Angles left out are 0. Each view becomes <name>.png.
     #[arg(long, value_name = "FILE.json", conflicts_with_all = ["path", "at"])]
     pub(crate) views: Option<PathBuf>,
-    /// Render the tour's camera path, as frame_00000.png and so on
+    /// Render the tour's camera path, as `frame_00000.png` and so on
     #[arg(long, conflicts_with = "at")]
     pub(crate) path: bool,
     /// Only these frames of the path: from A up to, not including, B (either may be left out)
@@ -104,6 +104,25 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "N", default_value_t = 30, requires = "path",
         value_parser = clap::value_parser!(u32).range(1..=240))]
     pub(crate) fps: u32,
+}
+
+impl RenderArguments {
+    /// All of the tour's path, in small frames: what stands in for a window where none can be opened.
+    pub(crate) fn small_film(tour: Option<PathBuf>, out: PathBuf) -> Self {
+        Self {
+            tour,
+            out,
+            views: None,
+            path: true,
+            frames: None,
+            at: None,
+            size: Some(UVec2::new(640, 360)),
+            samples: 1,
+            reference: false,
+            still: false,
+            fps: 30,
+        }
+    }
 }
 
 impl RenderArguments {

@@ -44,7 +44,7 @@ impl fmt::Display for Failure {
         match self {
             Self::Problems(problems) => {
                 for problem in &problems.0 {
-                    writeln!(f, "{}", in_words(problem))?;
+                    writeln!(f, "{problem}")?;
                 }
                 let count = problems.0.len();
                 writeln!(f, "{count} problem{} found", if count == 1 { "" } else { "s" })
@@ -53,9 +53,4 @@ impl fmt::Display for Failure {
             Self::Closed => Ok(()),
         }
     }
-}
-
-/// A problem as one line; pictures' errors carry their advice in the message.
-fn in_words(problem: &Problem) -> String {
-    problem.to_string().trim_end_matches("; ").to_owned()
 }

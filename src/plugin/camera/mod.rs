@@ -50,7 +50,7 @@ pub struct TourCamera {
     pub guide: Guide,
     /// Whether it listens to mouse, touch, keys and gamepad; switch it off while something else has them.
     pub listens: bool,
-    /// How a visitor moves; the scale is the scene's, times this one's share of 10.
+    /// How a visitor moves; its scale is replaced by the distance of the scene's nearest billboard.
     pub visitor: VisitorSettings,
 }
 
@@ -150,9 +150,9 @@ pub(super) fn move_cameras(
         let wish = std::mem::take(&mut state.wish);
         match camera.guide {
             Guide::Visitor => {
-                let nearest = (bounds[1].x - bounds[0].x) / 0.7;
-                let scale = camera.visitor.scale * nearest / 10.0;
-                let manner = VisitorSettings { scale, ..camera.visitor };
+                let look_limit = camera.visitor.look_limit.min(solved.scene.bounds.look);
+                let scale = solved.scene.bounds.nearest;
+                let manner = VisitorSettings { scale, look_limit, ..camera.visitor };
                 let visitor = state.visitor.step(&manner, &home, bounds, &wish, seconds);
                 if visitor != state.visitor || state.pose != Some(home) {
                     state.pose = Some(visitor.pose(&manner, &home, bounds));

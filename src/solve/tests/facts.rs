@@ -154,8 +154,8 @@ fn a_picture_extended_to_one_side_has_the_same_camera() {
         before.focal_px,
         after.focal_px
     );
-    let centre = after.principal.0 - before.principal.0;
-    assert!(centre.distance(shift) < 1e-6, "the principal point moved by {centre}, not {shift}");
+    let center = after.principal.0 - before.principal.0;
+    assert!(center.distance(shift) < 1e-6, "the principal point moved by {center}, not {shift}");
 }
 
 #[test]

@@ -46,16 +46,15 @@ pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
         return render_instead(tour, opened.source.tour.path.is_some(), missing);
     }
     let name = opened.name.clone();
-    let title = format!("{} - picture tour", tour.as_deref().map_or("lake (demo)".into(), |path| path.to_string_lossy()));
+    let title = format!(
+        "{} - picture tour",
+        tour.as_deref().map_or("lake (demo)".into(), |path| path.to_string_lossy())
+    );
     let exit = App::new()
         .add_plugins((
             DefaultPlugins
                 .set(WindowPlugin {
-                    primary_window: Some(Window {
-                        title,
-                        resolution: (1280, 720).into(),
-                        ..default()
-                    }),
+                    primary_window: Some(Window { title, resolution: (1280, 720).into(), ..default() }),
                     ..default()
                 })
                 .set(AssetPlugin { watch_for_changes_override: Some(false), ..default() }),
@@ -66,9 +65,12 @@ pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
         .insert_resource(ClearColor(Color::BLACK))
         .insert_resource(tours::Current::new(tour, name, Arc::new(opened.source)))
         .init_resource::<overlay::Overlay>()
-        .add_systems(Startup, (tours::show_first, |mut commands: Commands| {
-            commands.spawn(TourCamera::default());
-        }))
+        .add_systems(
+            Startup,
+            (tours::show_first, |mut commands: Commands| {
+                commands.spawn(TourCamera::default());
+            }),
+        )
         .add_systems(
             Update,
             (flight::read_keys, tours::take_dropped, tours::watch, tours::take_reread)

@@ -1,0 +1,49 @@
+//! Beyond the picture's border: maps reach a bit further, so that a camera may move without seeing where they end.
+//!
+//! What lies outside is folded in from inside (mirrored at the border); it is not known, and counted as missing.
+
+use glam::{IVec2, UVec2};
+
+use super::Grid;
+use crate::scene::BEYOND_BORDER;
+
+/// How far maps reach below the lower border, as a share of the picture's height: what a camera sees that looks further down or steps back.
+const BELOW: f64 = 0.25;
+
+/// The pixels that maps of a picture of `size` may have: low corner, and high corner (exclusive).
+pub(super) fn frame(size: UVec2) -> (IVec2, IVec2) {
+    let share = |share: f64, pixels: u32| (share * f64::from(pixels)).round() as i32;
+    let low = -IVec2::new(share(BEYOND_BORDER, size.x), share(BEYOND_BORDER, size.y));
+    (low, IVec2::new(size.x as i32 - low.x, size.y as i32 + share(BELOW, size.y)))
+}
+
+/// The pixel of the picture that stands for one outside: mirrored at the border.
+pub(super) fn folded(pixel: IVec2, size: UVec2) -> IVec2 {
+    let fold = |x: i32, size: u32| {
+        let (size, period) = (size as i32, 2 * size as i32);
+        let x = x.rem_euclid(period);
+        if x < size { x } else { period - 1 - x }
+    };
+    IVec2::new(fold(pixel.x, size.x), fold(pixel.y, size.y))
+}
+
+/// A grid of the picture's size, prolonged to the whole frame.
+pub(super) fn prolonged<T: Copy + Send + Sync + Default>(grid: &Grid<T>) -> Grid<T> {
+    let (low, high) = frame(grid.size);
+    Grid::from_fn(low, (high - low).as_uvec2(), |pixel| {
+        grid.get(folded(pixel, grid.size)).unwrap_or_default()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folding_mirrors_at_the_border_and_keeps_the_inside() {
+        let size = UVec2::new(10, 6);
+        assert_eq!(folded(IVec2::new(3, 5), size), IVec2::new(3, 5));
+        assert_eq!(folded(IVec2::new(-1, -3), size), IVec2::new(0, 2));
+        assert_eq!(folded(IVec2::new(10, 8), size), IVec2::new(9, 3));
+    }
+}
