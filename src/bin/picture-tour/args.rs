@@ -107,26 +107,7 @@ pub(crate) struct RenderArguments {
 }
 
 impl RenderArguments {
-    /// All of the tour's path, in small frames: what stands in for a window where none can be opened.
-    pub(crate) fn small_film(tour: Option<PathBuf>, out: PathBuf) -> Self {
-        Self {
-            tour,
-            out,
-            views: None,
-            path: true,
-            frames: None,
-            at: None,
-            size: Some(UVec2::new(640, 360)),
-            samples: 1,
-            reference: false,
-            still: false,
-            fps: 30,
-        }
-    }
-}
-
-impl RenderArguments {
-    /// The tour's path (or its first view) as a small film: what stands in for a window, quick even without a graphics card.
+    /// The tour's path (or its first view) as a small film: what stands in for a window, quick without a graphics card.
     pub(crate) fn small_film(tour: Option<PathBuf>, out: PathBuf, path: bool) -> Self {
         Self {
             tour,

@@ -4,7 +4,6 @@ use std::fmt;
 use std::io;
 use std::process::ExitCode;
 
-use bevy_picture_tour::tour::Problem;
 use bevy_picture_tour::tour::Problems;
 
 /// Why the program ends early. Written, it is whole lines for stderr.
