@@ -37,7 +37,8 @@ pub(super) fn push_pull<const C: usize>(width: usize, values: &mut [[f32; C]], w
 /// Half the size: means weighted by what is known; one known cell of four makes the whole known.
 fn reduced<const C: usize>(width: usize, height: usize, values: &[[f32; C]], weights: &[f32]) -> Level<C> {
     let (w, h) = (width.div_ceil(2), height.div_ceil(2));
-    let cells: Vec<([f32; C], f32)> = (0..w * h)
+    let (mut reduced, mut known) = (Vec::new(), Vec::new());
+    (0..w * h)
         .into_par_iter()
         .with_min_len(4096)
         .map(|index| {
@@ -55,9 +56,8 @@ fn reduced<const C: usize>(width: usize, height: usize, values: &[[f32; C]], wei
             }
             if weight > 0.0 { (sum.map(|s| s / weight), weight.min(1.0)) } else { ([0.0; C], 0.0) }
         })
-        .collect();
-    let (values, weights) = cells.into_iter().unzip();
-    Level { width: w, height: h, values, weights }
+        .unzip_into_vecs(&mut reduced, &mut known);
+    Level { width: w, height: h, values: reduced, weights: known }
 }
 
 /// Fills a level's unknown share from the bilinearly enlarged coarser one.

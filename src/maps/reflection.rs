@@ -5,6 +5,7 @@
 //! what the prediction misses there; *missing* when the texture had to be made up too.
 
 use glam::{DVec3, IVec2};
+use rayon::prelude::*;
 
 use super::beyond::frame;
 use super::coverage::Coverage;
@@ -17,12 +18,14 @@ use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::picture::color::linear_from_srgb;
 use crate::picture::color::srgb_from_linear;
-use crate::picture::color::srgb_from_linear_f32;
 use crate::scene::TourScene;
 
-/// Misses of the prediction beyond this many median errors, and beyond so many codes, are no shade of the water.
+/// Misses of the prediction beyond this many median errors are no shade of the water; in codes, kept in these bounds.
 const MISS_TOLERANCE: f32 = 3.0;
-const LEAST_TOLERANCE: f32 = 10.0;
+const TOLERANCE_CODES: [f32; 2] = [10.0, 20.0];
+
+/// Shares of agreeing texels around between which the prediction's part goes from none to all.
+const TRUST: [f32; 2] = [0.3, 0.7];
 
 /// Where a texel of a reflection map came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -145,28 +148,10 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
         };
         (predicted, origin)
     });
-    let width = extent.x as usize;
-    let code = |linear: f32| 255.0 * srgb_from_linear_f32(linear);
-    let tolerance = (MISS_TOLERANCE * tint.error_codes).max(LEAST_TOLERANCE);
-    let mut misses: Vec<[f32; 3]> = Vec::with_capacity(texels.cells.len());
-    let mut known: Vec<f32> = Vec::with_capacity(texels.cells.len());
-    for (cell, (predicted, origin)) in texels.cells.iter().enumerate() {
-        if *origin == Origin::Seen {
-            let color = linear(picture, texels.pixel(cell));
-            misses.push(std::array::from_fn(|c| color[c] - predicted[c]));
-            // Where the prediction fails altogether (a depth is wrong, something swims there) its miss says nothing
-            // about the texels beside.
-            let off = (0..3).map(|c| (code(color[c]) - code(predicted[c])).abs()).fold(0.0, f32::max);
-            known.push(f32::from(u8::from(off < tolerance)));
-        } else {
-            misses.push([0.0; 3]);
-            known.push(0.0);
-        }
-    }
-    push_pull(width, &mut misses, &known);
+    let unseen = unseen_colors(picture, tint, &texels);
     let layer = Layer::from_fn(origin, extent, |pixel| {
         let cell = texels.index(pixel).unwrap_or(0);
-        let (predicted, from) = texels.cells[cell];
+        let (_, from) = texels.cells[cell];
         let alpha = match &zones[index] {
             Some(zone) => zone.coverage.get(pixel).unwrap_or(0),
             None => 255,
@@ -174,11 +159,49 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
         let [r, g, b] = if from == Origin::Seen {
             picture.pixel(pixel.x as u32, pixel.y as u32)
         } else {
-            std::array::from_fn(|c| srgb_from_linear((predicted[c] + misses[cell][c]).clamp(0.0, 1.0)))
+            unseen[cell].map(srgb_from_linear)
         };
         [r, g, b, alpha]
     });
     (layer, texels.cells.into_iter().map(|(_, origin)| origin).collect())
+}
+
+/// Colors for the texels that the water does not show, linear light: the prediction plus what it misses on the seen
+/// texels around; where it fails on those altogether (their distance is wrong, something swims there), their own colors.
+fn unseen_colors(picture: &Picture, tint: &Tint, texels: &Grid<([f32; 3], Origin)>) -> Vec<[f32; 3]> {
+    let width = texels.size.x as usize;
+    let tolerance = (MISS_TOLERANCE * tint.error_codes).clamp(TOLERANCE_CODES[0], TOLERANCE_CODES[1]) as u8;
+    // Per texel what the prediction misses, and the seen color with whether the prediction agrees with it.
+    let (mut misses, mut around): (Vec<[f32; 3]>, Vec<[f32; 4]>) = texels
+        .cells
+        .par_iter()
+        .enumerate()
+        .map(|(cell, (predicted, origin))| {
+            if *origin != Origin::Seen {
+                return ([0.0; 3], [0.0; 4]);
+            }
+            let pixel = texels.pixel(cell).as_uvec2();
+            let codes = picture.pixel(pixel.x, pixel.y);
+            let [r, g, b] = codes.map(linear_from_srgb);
+            let agrees = (0..3).all(|c| codes[c].abs_diff(srgb_from_linear(predicted[c])) < tolerance);
+            let misses = [r - predicted[0], g - predicted[1], b - predicted[2]];
+            (misses, [r, g, b, f32::from(u8::from(agrees))])
+        })
+        .unzip();
+    let seen: Vec<f32> =
+        texels.cells.iter().map(|(_, origin)| f32::from(u8::from(*origin == Origin::Seen))).collect();
+    let agreeing: Vec<f32> = around.iter().map(|seen| seen[3]).collect();
+    push_pull(width, &mut misses, &agreeing);
+    push_pull(width, &mut around, &seen);
+    let blend = |cell: usize| -> [f32; 3] {
+        let (predicted, _) = texels.cells[cell];
+        let trust = ((around[cell][3] - TRUST[0]) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
+        std::array::from_fn(|c| {
+            let made = (predicted[c] + misses[cell][c]).clamp(0.0, 1.0);
+            trust * made + (1.0 - trust) * around[cell][c]
+        })
+    };
+    (0..texels.cells.len()).into_par_iter().map(blend).collect()
 }
 
 /// Raises the nearest mirror image at every water pixel until the layers over each other show the picture.
