@@ -166,8 +166,7 @@ fn draw_order(scene: &TourScene) -> Vec<usize> {
 pub(super) fn mean_lift(layer: &Layer, before: &Grid<u8>) -> f32 {
     let (mut sum, mut count) = (0.0, 0);
     for (cell, texel) in layer.cells.iter().enumerate() {
-        if texel[3] > 0 {
-            let own = before.get(layer.pixel(cell)).unwrap_or(0);
+        if let Some(own) = before.get(layer.pixel(cell)).filter(|_| texel[3] > 0) {
             sum += f32::from(texel[3].saturating_sub(own)) / 255.0;
             count += 1;
         }
