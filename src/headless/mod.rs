@@ -14,8 +14,10 @@ use bevy::asset::RenderAssetUsages;
 use bevy::camera::RenderTarget;
 use bevy::prelude::*;
 use bevy::render::render_resource::{
-    CachedPipelineState, Extent3d, PipelineCache, TextureDimension, TextureFormat, TextureUsages,
+    CachedPipeline, CachedPipelineState, Extent3d, PipelineCache, PipelineDescriptor, TextureDimension,
+    TextureFormat, TextureUsages,
 };
+use bevy::render::settings::WgpuSettings;
 use bevy::render::{RenderApp, RenderPlugin};
 use bevy::time::TimeUpdateStrategy;
 use bevy::window::{ExitCondition, WindowPlugin};
@@ -76,7 +78,20 @@ impl HeadlessTour {
     ///
     /// This returns an error without an adapter, when the tour cannot be solved, or when a shader does not compile.
     pub fn new(source: Arc<TourSource>, size: UVec2, place: Transform) -> Result<Self, HeadlessError> {
-        let mut app = headless_app()?;
+        Self::in_app(headless_app()?, source, size, place)
+    }
+
+    /// The same in an app of [`headless_app_with`] that nobody has finished yet.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new).
+    pub fn in_app(
+        mut app: App,
+        source: Arc<TourSource>,
+        size: UVec2,
+        place: Transform,
+    ) -> Result<Self, HeadlessError> {
         app.add_plugins(PictureTourPlugin);
         let asset = app.world_mut().resource_mut::<Assets<TourAsset>>().add(TourAsset(source));
         let target = app.world_mut().resource_mut::<Assets<Image>>().add(target_image(size));
@@ -140,24 +155,58 @@ impl HeadlessTour {
                 std::thread::sleep(Duration::from_millis(1));
             }
         }
-        Err(HeadlessError::Gpu("its shaders did not load".into()))
+        let waiting = waiting_pipelines(&self.app).join(", ");
+        Err(HeadlessError::Gpu(format!("the shaders of these pipelines did not load: {waiting}")))
     }
 
     /// Whether all pipelines are compiled.
     fn check(&self) -> Result<bool, HeadlessError> {
-        let cache = self.app.sub_app(RenderApp).world().resource::<PipelineCache>();
-        let mut ready = true;
-        for pipeline in cache.pipelines() {
-            match &pipeline.state {
-                CachedPipelineState::Ok(_) => {}
-                CachedPipelineState::Err(error) if !is_waiting(error) => {
-                    return Err(HeadlessError::Gpu(error.to_string()));
-                }
-                _ => ready = false,
-            }
-        }
-        Ok(ready)
+        pipelines_ready(&self.app)
     }
+}
+
+/// Whether all pipelines that were asked for so far are compiled.
+///
+/// # Errors
+///
+/// This returns an error when a shader does not compile.
+pub fn pipelines_ready(app: &App) -> Result<bool, HeadlessError> {
+    let cache = app.sub_app(RenderApp).world().resource::<PipelineCache>();
+    let mut ready = true;
+    for pipeline in cache.pipelines() {
+        match &pipeline.state {
+            CachedPipelineState::Ok(_) => {}
+            CachedPipelineState::Err(error) if !is_waiting(error) => {
+                return Err(HeadlessError::Gpu(error.to_string()));
+            }
+            _ => ready &= is_idle(pipeline),
+        }
+    }
+    Ok(ready)
+}
+
+/// The labels of the pipelines that wait for their shaders.
+fn waiting_pipelines(app: &App) -> Vec<String> {
+    let cache = app.sub_app(RenderApp).world().resource::<PipelineCache>();
+    let waiting = cache
+        .pipelines()
+        .filter(|pipeline| !matches!(pipeline.state, CachedPipelineState::Ok(_)) && !is_idle(pipeline));
+    let label = |pipeline: &CachedPipeline| match &pipeline.descriptor {
+        PipelineDescriptor::RenderPipelineDescriptor(descriptor) => descriptor.label.clone(),
+        PipelineDescriptor::ComputePipelineDescriptor(descriptor) => descriptor.label.clone(),
+    };
+    waiting
+        .map(|pipeline| label(pipeline).map_or_else(|| "unnamed".to_owned(), |label| label.to_string()))
+        .collect()
+}
+
+/// Whether a pipeline is never used and so may wait for its shader for ever: Bevy asks for this one also where there
+/// are no storage buffers, as on WebGL2.
+fn is_idle(pipeline: &CachedPipeline) -> bool {
+    let PipelineDescriptor::ComputePipelineDescriptor(descriptor) = &pipeline.descriptor else {
+        return false;
+    };
+    descriptor.label.as_deref() == Some("sparse buffer update pipeline")
 }
 
 /// Whether a pipeline only waits for a shader that is still being loaded.
@@ -186,6 +235,15 @@ struct Failure(Option<String>);
 ///
 /// This returns [`HeadlessError::NoAdapter`] when nothing can render.
 pub fn headless_app() -> Result<App, HeadlessError> {
+    headless_app_with(AssetPlugin::default(), WgpuSettings::default())
+}
+
+/// The same with assets from elsewhere, or with a device of other limits.
+///
+/// # Errors
+///
+/// This returns [`HeadlessError::NoAdapter`] when nothing can render.
+pub fn headless_app_with(assets: AssetPlugin, gpu: WgpuSettings) -> Result<App, HeadlessError> {
     if !adapter_exists() {
         return Err(HeadlessError::NoAdapter);
     }
@@ -200,10 +258,10 @@ pub fn headless_app() -> Result<App, HeadlessError> {
             TransformPlugin,
             bevy::input::InputPlugin,
             WindowPlugin { primary_window: None, exit_condition: ExitCondition::DontExit, ..default() },
-            AssetPlugin::default(),
+            assets,
         ),
         (
-            RenderPlugin { synchronous_pipeline_compilation: true, ..default() },
+            RenderPlugin { synchronous_pipeline_compilation: true, render_creation: gpu.into(), ..default() },
             ImagePlugin::default(),
             bevy::mesh::MeshPlugin,
             bevy::camera::CameraPlugin,
@@ -219,7 +277,7 @@ pub fn headless_app() -> Result<App, HeadlessError> {
 /// Whether anything can render here; Bevy itself panics without an adapter.
 #[must_use]
 pub fn adapter_exists() -> bool {
-    let backends = bevy::render::settings::WgpuSettings::default().backends;
+    let backends = WgpuSettings::default().backends;
     let Some(backends) = backends else { return false };
     let descriptor =
         wgpu::InstanceDescriptor { backends, ..wgpu::InstanceDescriptor::new_without_display_handle() };

@@ -42,6 +42,10 @@ pub struct TourFailed {
     pub error: String,
 }
 
+/// The asset that a tour was built from, or is being built from.
+#[derive(Component)]
+struct BuiltFrom(AssetId<TourAsset>);
+
 /// A tour being built.
 #[derive(Component)]
 struct Building(Task<Result<AssembledTour, AssembleError>>);
@@ -73,6 +77,7 @@ fn build_now(
     for root in &tours {
         if let Some(TourAsset(source)) = sources.get(&root.1.0) {
             let built = assemble(source, &|_, _| true);
+            commands.entity(root.0).insert(BuiltFrom(root.1.0.id()));
             finish(&mut commands, &mut assets, root, &source.tour, built);
         }
     }
@@ -81,26 +86,25 @@ fn build_now(
 /// Later: builds tours in the background when they are new or their asset has changed.
 fn start_building(
     mut commands: Commands,
-    tours: Query<(Entity, Ref<PictureTour>, Has<ShownTour>, Has<Building>)>,
+    tours: Query<(Entity, &PictureTour, Option<&BuiltFrom>)>,
     sources: Res<Assets<TourAsset>>,
     mut events: MessageReader<AssetEvent<TourAsset>>,
 ) {
     let changed: Vec<AssetId<TourAsset>> = events
         .read()
         .filter_map(|event| match event {
-            AssetEvent::Added { id } | AssetEvent::Modified { id } => Some(*id),
+            AssetEvent::Modified { id } => Some(*id),
             _ => None,
         })
         .collect();
-    for (entity, tour, shown, building) in &tours {
+    for (entity, tour, built) in &tours {
         let id = tour.0.id();
-        let is_new = tour.is_changed() || changed.contains(&id);
-        // What start-up has built comes with its own asset event.
-        let done = shown && !building && !changed.contains(&id) && tour.is_added();
-        let Some(TourAsset(source)) = sources.get(id).filter(|_| is_new && !done) else { continue };
+        // An asset's first event comes after the frame that could already build it, so it tells nothing.
+        let is_new = built.is_none_or(|built| built.0 != id) || changed.contains(&id);
+        let Some(TourAsset(source)) = sources.get(id).filter(|_| is_new) else { continue };
         let source = Arc::clone(source);
         let task = AsyncComputeTaskPool::get().spawn(async move { assemble(&source, &|_, _| true) });
-        commands.entity(entity).insert(Building(task));
+        commands.entity(entity).insert((Building(task), BuiltFrom(id)));
     }
 }
 
@@ -173,8 +177,15 @@ fn report_failures(
 fn follow_root(
     mut commands: Commands,
     tours: Query<(Entity, &RenderLayers), (With<ShownTour>, Changed<RenderLayers>)>,
+    without: Query<(), (With<ShownTour>, Without<RenderLayers>)>,
+    mut removed: RemovedComponents<RenderLayers>,
     children: Query<&Children>,
 ) {
+    for root in removed.read().filter(|root| without.contains(*root)) {
+        for child in children.iter_descendants(root) {
+            commands.entity(child).remove::<RenderLayers>();
+        }
+    }
     for (root, layers) in &tours {
         for child in children.iter_descendants(root) {
             commands.entity(child).insert(layers.clone());

@@ -216,3 +216,6 @@ pub(super) fn plugin(app: &mut App) {
         MaterialPlugin::<TourWaterMaterial>::default(),
     ));
 }
+
+#[cfg(test)]
+mod layout_tests;

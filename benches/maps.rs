@@ -1,0 +1,44 @@
+//! How long a tour takes from its files to being ready, by stages, on world A1 (960 × 540, four bodies).
+//!
+//! Stages of one run are to be compared with each other: reading and decoding alone, maps alone, everything. Absolute
+//! figures depend on the machine; the demo has four times the pixels.
+#![allow(clippy::unwrap_used, reason = "a bench may panic")]
+
+use std::hint::black_box;
+use std::path::Path;
+use std::time::Duration;
+
+use bevy_picture_tour::assemble::{TourSource, assemble};
+use bevy_picture_tour::maps::{Maps, TourMasks};
+use bevy_picture_tour::picture::decode_picture;
+use criterion::Criterion;
+
+fn main() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/a1");
+    let file = folder.join("a1.tour.ron");
+    let open = || TourSource::open(&file).unwrap_or_else(|problems| panic!("{problems}"));
+    let source = open();
+    let scene = assemble(&source, &|_, _| true).unwrap().scene;
+    let masks = TourMasks {
+        water: source.water.clone(),
+        ground: source.ground.clone(),
+        billboards: source.objects.clone(),
+    };
+    let png = std::fs::read(folder.join("input.png")).unwrap();
+
+    let mut criterion = Criterion::default().configure_from_args();
+    let mut group = criterion.benchmark_group("maps of A1");
+    group.sample_size(10).measurement_time(Duration::from_secs(10));
+    group.bench_function("decode the picture", |bencher| {
+        bencher.iter(|| decode_picture(black_box(&png), "input.png").unwrap());
+    });
+    group.bench_function("open: tour, picture and masks", |bencher| bencher.iter(open));
+    group.bench_function("maps from decoded pixels", |bencher| {
+        bencher.iter(|| Maps::build(&scene, black_box(&source.picture), &masks, &|_, _| true).unwrap());
+    });
+    group.bench_function("from file to ready", |bencher| {
+        bencher.iter(|| assemble(&open(), &|_, _| true).unwrap());
+    });
+    group.finish();
+    criterion.final_summary();
+}

@@ -1,0 +1,122 @@
+//! Tours of files, through Bevy's asset server: loaded, refused, broken and mended while they are shown.
+
+use std::fs;
+
+use bevy::prelude::*;
+use bevy_picture_tour::trace::compare::Comparison;
+
+use crate::support::stage::Stage;
+use crate::support::{adapter, made_scene};
+
+#[test]
+fn a_file_becomes_a_tour_that_shows_its_picture() {
+    let Some(_gpu) = adapter() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    made_scene::write_to(&folder.path().join("lakes"));
+    let mut stage = Stage::with_assets_of(folder.path());
+    let root = stage.tour_of("lakes/lake.tour.ron");
+    let target = stage.camera(root, made_scene::SIZE, Msaa::Off);
+    stage.wait("the tour's being ready", |stage| !stage.heard().ready.is_empty());
+    let found =
+        Comparison::of(&stage.shot(&target, made_scene::SIZE), &made_scene::source().picture).unwrap();
+    assert!(found.max_code_difference <= 1, "{} codes off at worst", found.max_code_difference);
+    assert_eq!(stage.heard().ready, [root], "it was built once");
+}
+
+#[test]
+fn a_broken_file_is_told_and_what_was_shown_stays() {
+    let Some(_gpu) = adapter() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    made_scene::write_to(folder.path());
+    let mut stage = Stage::with_assets_of(folder.path());
+    let root = stage.tour_of("lake.tour.ron");
+    stage.wait("the tour's being ready", |stage| !stage.heard().ready.is_empty());
+    stage.settle();
+    let shown = stage.descendants(root);
+
+    let path = folder.path().join("lake.tour.ron");
+    let sound = fs::read_to_string(&path).unwrap();
+    fs::write(&path, sound.replace("version: 1", "version: 1, colour: Red")).unwrap();
+    stage.app.world().resource::<AssetServer>().reload("lake.tour.ron");
+    stage.wait("the failure", |stage| !stage.heard().failed.is_empty());
+    let (entity, error) = stage.heard().failed[0].clone();
+    assert_eq!(entity, root);
+    for word in ["lake.tour.ron:2:", "colour", "no field", "leave it out"] {
+        assert!(error.contains(word), "{word:?} is not in: {error}");
+    }
+    for _ in 0..5 {
+        stage.app.update();
+    }
+    assert_eq!(stage.descendants(root), shown, "what was shown before stays");
+    assert_eq!(stage.heard().ready, [root]);
+
+    fs::write(&path, sound.replace("HeightAboveWater(1.6)", "HeightAboveWater(3.2)")).unwrap();
+    stage.app.world().resource::<AssetServer>().reload("lake.tour.ron");
+    stage.wait("the mended tour's being ready", |stage| stage.heard().ready.len() > 1);
+    stage.settle();
+    let height = stage.solved(root).expect("it is shown").solution.parameters.height;
+    assert_eq!(height, 3.2, "meters of the mended file");
+    let now = stage.descendants(root);
+    assert_eq!(now.len(), shown.len(), "the new parts replace the old ones");
+    assert!(shown.iter().all(|part| !now.contains(part)), "old parts stayed");
+}
+
+#[test]
+fn a_broken_mask_is_told_with_the_tour_s_place() {
+    let Some(_gpu) = adapter() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    made_scene::write_to(folder.path());
+    fs::write(folder.path().join("masks/boat.png"), "a text").unwrap();
+    fs::remove_file(folder.path().join("masks/water.png")).unwrap();
+    let mut stage = Stage::with_assets_of(folder.path());
+    stage.tour_of("lake.tour.ron");
+    stage.wait("the failure", |stage| !stage.heard().failed.is_empty());
+    let error = &stage.heard().failed[0].1;
+    for word in ["lake.tour.ron:", "objects[1].outline", "masks/boat.png", "water.region", "masks/water.png"]
+    {
+        assert!(error.contains(word), "{word:?} is not in: {error}");
+    }
+    assert!(stage.heard().ready.is_empty(), "nothing is shown of it");
+}
+
+#[test]
+fn a_tour_may_not_read_outside_its_folder() {
+    let Some(_gpu) = adapter() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let inside = folder.path().join("tour");
+    made_scene::write_to(folder.path());
+    made_scene::write_to(&inside);
+    let path = inside.join("lake.tour.ron");
+    let sound = fs::read_to_string(&path).unwrap();
+    assert_eq!(sound.matches("\"lake.png\"").count(), 1, "{sound}");
+    for (leaving, why) in [
+        ("../lake.png", "leaves"),
+        ("masks/../../lake.png", "leaves"),
+        ("/etc/hostname", "absolute"),
+        ("embedded://lake.png", "another source"),
+    ] {
+        fs::write(&path, sound.replace("\"lake.png\"", &format!("{leaving:?}"))).unwrap();
+        // The whole folder is the asset server's, so Bevy itself would not object.
+        let mut stage = Stage::with_assets_of(folder.path());
+        stage.tour_of("tour/lake.tour.ron");
+        stage
+            .wait("the refusal", |stage| !stage.heard().failed.is_empty() || !stage.heard().ready.is_empty());
+        assert!(stage.heard().ready.is_empty(), "{leaving} was read");
+        let error = &stage.heard().failed[0].1;
+        for word in ["tour/lake.tour.ron:", "picture.file", leaving, why] {
+            assert!(error.contains(word), "{word:?} is not in: {error}");
+        }
+    }
+}
+
+#[test]
+fn a_tour_that_is_not_there_fails_by_name() {
+    let Some(_gpu) = adapter() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let mut stage = Stage::with_assets_of(folder.path());
+    let root = stage.tour_of("none.tour.ron");
+    stage.wait("the failure", |stage| !stage.heard().failed.is_empty());
+    let (entity, error) = &stage.heard().failed[0];
+    assert_eq!(*entity, root);
+    assert!(error.contains("none.tour.ron"), "{error}");
+}
