@@ -143,10 +143,20 @@ impl TourSource {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let inside = |file: &RelativePath| {
             let path = file.in_folder(&folder);
-            std::fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
+            read_inside(&folder, &path).map_err(|error| format!("{}: {error}", path.display()))
         };
         Self::read(&tour, &inside).map_err(|problems| problems.located_in(&text).with_file(&name))
     }
+}
+
+/// Reads a file unless links lead it out of the folder.
+fn read_inside(folder: &Path, path: &Path) -> std::io::Result<Vec<u8>> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let (folder, path) = (folder.canonicalize()?, path.canonicalize()?);
+    if !path.starts_with(folder) {
+        return Err(std::io::Error::other("a link leads it out of the tour's folder"));
+    }
+    std::fs::read(path)
 }
 
 fn from_picture_error(place: &str, file: &str, error: &PictureError) -> Problem {

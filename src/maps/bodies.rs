@@ -32,7 +32,7 @@ pub(super) fn take_in_bodies(
 ) -> Grid<u8> {
     let size = picture.size();
     let owner = seen_owner(scene, coverage, zones);
-    let reach = margin_px(size) - fringe(size) - 1;
+    let reach = (margin_px(size) - fringe(size) - 1).max(0);
     for (index, zone) in zones.iter_mut().enumerate() {
         let Some(zone) = zone.as_mut().filter(|_| scene.components[index].role == Role::Billboard) else {
             continue;

@@ -54,7 +54,9 @@ impl Coverage {
         let ground = scene.ground();
         let first_billboard = if ground.is_some() { 2 } else { 1 };
 
-        let billboards: Vec<Grid<u8>> = masks.billboards.iter().map(boxed).collect();
+        // A scene may have left out the last ones.
+        let count = scene.components.len() - first_billboard;
+        let billboards: Vec<Grid<u8>> = masks.billboards.iter().take(count).map(boxed).collect();
         let hidden = Grid::from_fn(IVec2::ZERO, size, |pixel| {
             billboards.iter().map(|grid| u32::from(grid.get(pixel).unwrap_or(0))).sum::<u32>().min(255) as u8
         });

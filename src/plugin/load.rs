@@ -13,7 +13,7 @@ use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
 use super::PictureTourSystems;
 use super::asset::{TourAsset, TourLoader};
 use super::camera::TourPath;
-use super::material::ColorPolicy;
+use super::material::{ColorPolicy, TourSurfaceMaterial, TourWaterMaterial};
 use super::spawn::{self, ShownTour, TourAssets};
 use crate::assemble::AssembleError;
 use crate::assemble::AssembledTour;
@@ -55,7 +55,7 @@ pub(super) fn plugin(app: &mut App) {
     app.add_systems(PostStartup, build_now);
     app.add_systems(Update, (start_building, finish_building).chain().in_set(PictureTourSystems::Input));
     app.add_systems(Update, report_failures.in_set(PictureTourSystems::Input));
-    app.add_systems(Update, follow_root.in_set(PictureTourSystems::Upload));
+    app.add_systems(Update, (follow_root, follow_policy).in_set(PictureTourSystems::Upload));
 }
 
 /// What a tour's root is asked for when it is shown.
@@ -189,6 +189,28 @@ fn follow_root(
     for (root, layers) in &tours {
         for child in children.iter_descendants(root) {
             commands.entity(child).insert(layers.clone());
+        }
+    }
+}
+
+/// Materials follow the root's color policy.
+fn follow_policy(
+    tours: Query<(Entity, &ColorPolicy), (With<ShownTour>, Changed<ColorPolicy>)>,
+    children: Query<&Children>,
+    surfaces: Query<&MeshMaterial3d<TourSurfaceMaterial>>,
+    waters: Query<&MeshMaterial3d<TourWaterMaterial>>,
+    mut surface_materials: ResMut<Assets<TourSurfaceMaterial>>,
+    mut water_materials: ResMut<Assets<TourWaterMaterial>>,
+) {
+    for (root, policy) in &tours {
+        for child in children.iter_descendants(root) {
+            if let Some(mut material) = surfaces.get(child).ok().and_then(|it| surface_materials.get_mut(it))
+            {
+                material.policy = *policy;
+            }
+            if let Some(mut material) = waters.get(child).ok().and_then(|it| water_materials.get_mut(it)) {
+                material.policy = *policy;
+            }
         }
     }
 }
