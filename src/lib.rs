@@ -1,5 +1,4 @@
 //! Step into a picture: one still picture with water in it becomes a scene one can fly through.
-#![cfg_attr(test, allow(clippy::unwrap_used, reason = "a test may panic"))]
 
 pub mod picture;
 

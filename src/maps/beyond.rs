@@ -1,6 +1,7 @@
 //! Beyond the picture's border: maps reach a bit further, so that a camera may move without seeing where they end.
 //!
-//! What lies outside is folded in from inside (mirrored at the border); it is not known, and counted as missing.
+//! What lies outside is folded in from inside (mirrored at the border), above the picture it fades smoothly; it is not
+//! known, and counted as missing.
 
 use glam::{IVec2, UVec2};
 

@@ -4,6 +4,7 @@
 //! background; below it, it is water, unless the masks leave it to the background (what hangs under the contact line).
 
 use glam::{IVec2, UVec2};
+use rayon::prelude::*;
 
 use super::Grid;
 use super::beyond::frame;
@@ -142,23 +143,26 @@ fn framework_alpha(
     let ground_surface = scene.ground().map(|index| scene.components[index].surface);
     let background = scene.background().surface;
     // Shares of [background below its contact line, ground] among what is not hidden.
-    let mut shares: Vec<[f32; 2]> = Vec::with_capacity(hidden.cells.len());
-    let mut known: Vec<f32> = Vec::with_capacity(hidden.cells.len());
-    for index in 0..hidden.cells.len() {
-        let pixel = hidden.pixel(index).as_uvec2();
-        let coverage = |mask: &Option<Mask>| {
-            mask.as_ref().map_or(0.0, |mask| f32::from(dusted(mask.get(pixel.x, pixel.y))) / 255.0)
-        };
-        let seen = 1.0 - f32::from(hidden.cells[index]) / 255.0;
-        let ground = coverage(&masks.ground).min(seen);
-        let rest = match &masks.water {
-            Some(_) => (seen - coverage(&masks.water) - ground).max(0.0),
-            None => 0.0,
-        };
-        shares.push(if seen > 0.0 { [rest / seen, ground / seen] } else { [0.0; 2] });
-        known.push(if seen > 0.98 { 1.0 } else { 0.0 });
-    }
-    let visible = shares.clone();
+    let (visible, known): (Vec<[f32; 2]>, Vec<f32>) = hidden
+        .cells
+        .par_iter()
+        .enumerate()
+        .map(|(index, &hidden_by)| {
+            let pixel = hidden.pixel(index).as_uvec2();
+            let coverage = |mask: &Option<Mask>| {
+                mask.as_ref().map_or(0.0, |mask| f32::from(dusted(mask.get(pixel.x, pixel.y))) / 255.0)
+            };
+            let seen = 1.0 - f32::from(hidden_by) / 255.0;
+            let ground = coverage(&masks.ground).min(seen);
+            let rest = match &masks.water {
+                Some(_) => (seen - coverage(&masks.water) - ground).max(0.0),
+                None => 0.0,
+            };
+            let shares = if seen > 0.0 { [rest / seen, ground / seen] } else { [0.0; 2] };
+            (shares, f32::from(u8::from(seen > 0.98)))
+        })
+        .unzip();
+    let mut shares = visible.clone();
     push_pull(size.x as usize, &mut shares, &known);
 
     let code = |share: f32| (255.0 * share.clamp(0.0, 1.0)).round() as u8;

@@ -1,6 +1,7 @@
 //! Texture maps: what each component shows directly, filled where something hides it.
 
 use glam::IVec2;
+use rayon::prelude::*;
 
 use super::beyond::{folded, prolonged};
 use super::coverage::{Coverage, is_above_contact};
@@ -35,13 +36,26 @@ pub(super) fn filled_colors(
                 if pure(pixel) { linear(picture, pixel) } else { [0.0; 3] }
             },
         );
-    let mut known: Vec<f32> =
-        (0..colors.cells.len()).map(|cell| f32::from(u8::from(pure(colors.pixel(cell))))).collect();
+    let mut known: Vec<f32> = (0..colors.cells.len())
+        .into_par_iter()
+        .map(|cell| f32::from(u8::from(pure(colors.pixel(cell)))))
+        .collect();
     if scene.components[index].role == Role::Background && scene.water {
         fill_from_water(scene, picture, coverage, tint, owner, &mut colors, &mut known);
     }
     push_pull(colors.size.x as usize, &mut colors.cells, &known);
-    if scene.components[index].role == Role::Billboard { colors } else { prolonged(&colors) }
+    match scene.components[index].role {
+        Role::Billboard => colors,
+        Role::Ground => prolonged(&colors),
+        Role::Background => {
+            // Sky over sky: what is folded to the sides goes on, what would hang upside down from above does not.
+            let mut wide = prolonged(&colors);
+            let known: Vec<f32> =
+                (0..wide.cells.len()).map(|cell| f32::from(u8::from(wide.pixel(cell).y >= 0))).collect();
+            push_pull(wide.size.x as usize, &mut wide.cells, &known);
+            wide
+        }
+    }
 }
 
 /// Fills hidden background from its mirror image; the fit's local miss is taken out by a membrane, so that no seam

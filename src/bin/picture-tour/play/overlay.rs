@@ -40,10 +40,11 @@ impl Overlay {
 pub(super) fn show(mut contexts: EguiContexts, mut overlay: ResMut<Overlay>, time: Res<Time>) -> Result {
     let context = contexts.ctx_mut()?;
     overlay.seconds_left -= time.delta_secs();
-    let frame = egui::Frame::popup(&context.global_style()).fill(egui::Color32::from_black_alpha(190));
+    let frame = egui::Frame::popup(&context.global_style()).fill(egui::Color32::from_black_alpha(205));
     if overlay.help {
         egui::Area::new("keys".into()).anchor(egui::Align2::LEFT_TOP, [12.0, 12.0]).show(context, |ui| {
             frame.show(ui, |ui| {
+                ui.visuals_mut().override_text_color = Some(egui::Color32::WHITE);
                 egui::Grid::new("keys").num_columns(2).spacing([18.0, 6.0]).show(ui, |ui| {
                     for (key, does) in KEYS {
                         ui.strong(key);
@@ -62,6 +63,7 @@ pub(super) fn show(mut contexts: EguiContexts, mut overlay: ResMut<Overlay>, tim
             .show(context, |ui| {
                 frame.show(ui, |ui| {
                     ui.set_max_width(820.0);
+                    ui.visuals_mut().override_text_color = Some(egui::Color32::WHITE);
                     ui.label(message);
                 });
             });
