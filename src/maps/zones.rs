@@ -2,7 +2,7 @@
 //!
 //! A zone is the mirrored mask; `bodies.rs` adds what only the water sees of a body.
 
-use glam::{IVec2, UVec2};
+use glam::{DVec3, IVec2, UVec2};
 
 use super::Grid;
 use super::beyond::frame;
@@ -37,8 +37,8 @@ pub(super) fn zones(scene: &TourScene, coverage: &Coverage) -> Vec<Option<Zone>>
             if index == 0 || !scene.water || !is_mirrored(&component.surface) {
                 return None;
             }
-            let (low, high) = mirror_box(scene, &component.surface)?;
             let alpha = &coverage.alpha[index];
+            let (low, high) = mirror_box(scene, &component.surface, alpha)?;
             let zone = Grid::from_fn(low, (high - low).as_uvec2(), |pixel| {
                 let point = PicturePoint::pixel_center(pixel.x.into(), pixel.y.into());
                 mirrored(scene, &component.surface, point)
@@ -54,26 +54,44 @@ pub(super) fn fringe(size: UVec2) -> i32 {
     (MIRROR_FRINGE * f64::from(size.x)).round().max(2.0) as i32
 }
 
-/// The box of pixels in which a surface's mirror image can lie, low and high corner.
-fn mirror_box(scene: &TourScene, surface: &Surface) -> Option<(IVec2, IVec2)> {
+/// The box of pixels in which a surface's mirror image can lie, low and high corner; `None` when that is not in the
+/// maps' frame.
+fn mirror_box(scene: &TourScene, surface: &Surface, alpha: &Grid<u8>) -> Option<(IVec2, IVec2)> {
     let (least, most) = frame(scene.camera.intrinsics.size);
-    let Surface::Wall(wall) = surface else {
-        return Some((least, most));
-    };
-    let (mut low, mut high) = (IVec2::MAX, IVec2::MIN);
-    for s in wall.span {
-        for y in [0.0, wall.rise[1]] {
-            let seen = scene
-                .camera
-                .project(mirror(wall.point(s, y)))?
-                .0
-                .clamp(glam::DVec2::splat(-1e6), glam::DVec2::splat(1e6));
-            low = low.min(seen.floor().as_ivec2() - 2);
-            high = high.max(seen.ceil().as_ivec2() + 2);
-        }
-    }
+    // Where a corner lies behind the camera the image runs out of the frame somewhere.
+    let (low, high) = mirrored_corners(scene, surface, alpha).map_or((least, most), |corners| {
+        let near = |edge: f64| edge.clamp(-1e6, 1e6) as i32;
+        corners.iter().fold((IVec2::MAX, IVec2::MIN), |(low, high), corner| {
+            let [x, y] = [near(corner.x()), near(corner.y())];
+            (low.min(IVec2::new(x, y) - 3), high.max(IVec2::new(x, y) + 3))
+        })
+    });
     let (low, high) = (low.max(least), high.min(most));
     low.cmplt(high).all().then_some((low, high))
+}
+
+/// Where the corners of a wall's part above the water, or of a level's covered part, are mirrored.
+fn mirrored_corners(scene: &TourScene, surface: &Surface, alpha: &Grid<u8>) -> Option<Vec<PicturePoint>> {
+    let points: Vec<DVec3> = match surface {
+        Surface::Wall(wall) => {
+            wall.span.iter().flat_map(|&s| [0.0, wall.rise[1]].map(|y| wall.point(s, y))).collect()
+        }
+        Surface::Level(_) => {
+            let covered = |index: &usize| alpha.cells[*index] > 0;
+            let pixels = || (0..alpha.cells.len()).filter(covered).map(|index| alpha.pixel(index));
+            let (low, high) = (pixels().reduce(IVec2::min)?, pixels().reduce(IVec2::max)? + 1);
+            let corner = |x: i32, y: i32| {
+                let ray = scene.camera.ray(PicturePoint::new(x.into(), y.into()));
+                surface.meet_plane(ray).map(|t| ray.at(t))
+            };
+            [(low.x, low.y), (high.x, low.y), (low.x, high.y), (high.x, high.y)]
+                .into_iter()
+                .map(|(x, y)| corner(x, y))
+                .collect::<Option<_>>()?
+        }
+        Surface::Infinity => return None,
+    };
+    points.into_iter().map(|point| scene.camera.project(mirror(point))).collect()
 }
 
 /// The components whose fringe covers a water pixel, far to near, with the parameters that order them.
