@@ -1,4 +1,4 @@
-//! How long the reference tracer takes for a frame of world A1 at 640 × 360, one sample, all cores.
+//! How long the reference tracer takes for a frame of the demo at 640 × 360, one sample, all cores.
 //!
 //! What must hold: over 10 frames a second on two cores. Beside it, in the same run: a plain copy of the frame's pixels
 //! through linear light and back, the least that any renderer does; and the view from elsewhere, where nothing is cached.
@@ -17,7 +17,7 @@ use glam::{DVec3, UVec2};
 const SIZE: UVec2 = UVec2::new(640, 360);
 
 fn main() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/a1/a1.tour.ron");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lake/lake.tour.ron");
     let source = TourSource::open(&path).unwrap_or_else(|problems| panic!("{problems}"));
     let built = assemble(&source, &|_, _| true).unwrap();
     let own = built.scene.camera;

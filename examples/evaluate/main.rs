@@ -77,7 +77,10 @@ fn main() -> Result<(), Failure> {
         rendering += started.elapsed().as_secs_f64() - before;
         let truth = world.picture(&view.file)?;
         let all = Comparison::of(&frame, &truth)?;
-        let water = Comparison::over(&frame, &truth, &world.mask(&view.water_mask, truth.size())?).ok();
+        let water = match &view.water_mask {
+            Some(mask) => Comparison::over(&frame, &truth, &world.mask(mask, truth.size())?).ok(),
+            None => None,
+        };
         let water = water.map(|water| (water.psnr, water.ssim));
         println!("{}  {}", view.file, figures(all.psnr, all.ssim, water));
         keep(&args, &view.name(), &frame)?;

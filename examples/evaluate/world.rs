@@ -16,7 +16,7 @@ use super::Failure;
 /// A rendering of the truth.
 pub(super) struct View {
     pub file: String,
-    pub water_mask: String,
+    pub water_mask: Option<String>,
     pub pose: CameraPose,
 }
 
@@ -45,7 +45,7 @@ impl World {
         for view in list(&scene["views"]) {
             views.push(View {
                 file: text_of(&view["file"])?,
-                water_mask: text_of(&view["water_mask"])?,
+                water_mask: view["water_mask"].as_str().map(str::to_owned),
                 pose: pose(view, height)?,
             });
         }
@@ -90,12 +90,15 @@ impl World {
         if let [left, right] = list(&scene["horizon"]) {
             tour.camera.horizon = Some([point(left)?, point(right)?]);
         }
-        tour.camera.scale = Some(Scale::HeightAboveWater(self.height));
         if known_focal {
             let lens = &scene["intrinsics"];
             tour.camera.focal_length = FocalLength::Known(number(&lens["focal_px"])?);
             tour.camera.principal_point = Some(PicturePoint::new(number(&lens["cx"])?, number(&lens["cy"])?));
         }
+        tour.camera.scale = Some(match region(&scene["regions"]["water"]) {
+            Some(_) => Scale::HeightAboveWater(self.height),
+            None => Scale::HeightAboveGround(scene["height_above_ground"].as_f64().unwrap_or(self.height)),
+        });
         // Family B tells where the background's bands stand; its pairs without an object lie on any of them.
         let banded = !list(&scene["background"]["bands"]).is_empty();
         if let Some(region) = region(&scene["regions"]["water"]) {

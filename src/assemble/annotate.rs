@@ -26,10 +26,9 @@ const RIPPLED_PX: f64 = 3.0;
 pub fn annotations(source: &TourSource) -> Annotations {
     let tour = &source.tour;
     let size = source.picture.size();
-    let principal = tour
-        .camera
-        .principal_point
-        .unwrap_or(crate::picture::PicturePoint(source.uncropped_size.as_dvec2() / 2.0));
+    // A source's tour says it always: a crop's lies off its center.
+    let principal =
+        tour.camera.principal_point.unwrap_or(crate::picture::PicturePoint(size.as_dvec2() / 2.0));
     let width = f64::from(size.x);
     let (scale, assumed) = tour.scale();
     let plane_of = |name: &str| tour.objects.iter().position(|object| object.name == name);

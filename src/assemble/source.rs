@@ -17,6 +17,9 @@ use crate::tour::Region;
 use crate::tour::RelativePath;
 use crate::tour::Tour;
 
+/// The most pixels that maps are built from: each takes some hundred bytes while they are.
+const MOST_PIXELS: u64 = 64_000_000;
+
 /// A tour and the pixels it speaks of; picture, masks and numbers all refer to the part that is used.
 #[derive(Clone, Debug)]
 pub struct TourSource {
@@ -66,6 +69,18 @@ impl TourSource {
         let size = decoded.picture.size();
         tour.check_size(size)?;
 
+        if u64::from(size.x) * u64::from(size.y) > MOST_PIXELS {
+            return Err(Problem::new(
+                "picture.file",
+                format!("\"{}\"", file.as_str()),
+                format!("{} × {} pixels are more than a tour is built from", size.x, size.y),
+                format!(
+                    "scale it down to {} megapixels at most; the tour's numbers may stay",
+                    MOST_PIXELS / 1_000_000
+                ),
+            )
+            .into());
+        }
         let crop = tour.crop_in(size);
         let low = UVec2::new(crop.left, crop.top);
         let rect = PixelRect { min: low, max: low + UVec2::new(crop.width, crop.height) };

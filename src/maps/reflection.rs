@@ -70,7 +70,7 @@ pub(super) fn linear(picture: &Picture, pixel: IVec2) -> [f32; 3] {
     picture.pixel(pixel.x as u32, pixel.y as u32).map(linear_from_srgb)
 }
 
-/// What the water shows of the background where a billboard hides it, brought to direct colors: color and weight 0 or 1.
+/// What the water shows of the background where a billboard hides it, brought to direct colors.
 pub(super) fn background_from_water(
     scene: &TourScene,
     picture: &Picture,

@@ -94,7 +94,7 @@ fn mirrored_corners(scene: &TourScene, surface: &Surface, alpha: &Grid<u8>) -> O
     points.into_iter().map(|point| scene.camera.project(mirror(point))).collect()
 }
 
-/// The components whose fringe covers a water pixel, far to near, with the parameters that order them.
+/// The components whose fringe covers a water pixel, far to near.
 pub(super) fn stack_at(scene: &TourScene, zones: &[Option<Zone>], pixel: IVec2) -> Vec<usize> {
     let mut stack: Vec<(f64, usize)> = zones
         .iter()

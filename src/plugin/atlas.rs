@@ -34,7 +34,10 @@ pub(super) fn pack(layers: &[Option<&Layer>], largest: u32) -> Atlas {
     loop {
         let sizes: Vec<Option<UVec2>> =
             layers.iter().map(|layer| layer.map(|layer| scaled_size(layer.size, scale))).collect();
-        if let Some((size, places)) = shelves(&sizes, largest) {
+        // Nearly square first; as wide as may be before anything is scaled.
+        let area: f64 = sizes.iter().flatten().map(|size| f64::from(size.x) * f64::from(size.y)).sum();
+        let found = shelves(&sizes, (area.sqrt() as u32).min(largest), largest);
+        if let Some((size, places)) = found.or_else(|| shelves(&sizes, largest, largest)) {
             let mut texels = vec![[0; 4]; size.x as usize * size.y as usize];
             for (layer, at) in layers.iter().zip(&places) {
                 if let (Some(layer), Some(at)) = (layer, at) {
@@ -52,13 +55,12 @@ pub(super) fn scaled_size(size: UVec2, scale: f32) -> UVec2 {
     (size.as_vec2() * scale).round().as_uvec2().max(UVec2::ONE)
 }
 
-/// Places for rectangles, and the size they need; `None` when they do not fit.
-fn shelves(sizes: &[Option<UVec2>], largest: u32) -> Option<(UVec2, Vec<Option<UVec2>>)> {
+/// Places for rectangles on shelves of a wanted width, and the size they need; `None` when they do not fit.
+fn shelves(sizes: &[Option<UVec2>], wanted: u32, largest: u32) -> Option<(UVec2, Vec<Option<UVec2>>)> {
     let mut order: Vec<usize> = (0..sizes.len()).filter(|&index| sizes[index].is_some()).collect();
     order.sort_by_key(|&index| std::cmp::Reverse(sizes[index].map_or(0, |size| size.y)));
     let widest = sizes.iter().flatten().map(|size| size.x).max().unwrap_or(1);
-    let area: u64 = sizes.iter().flatten().map(|size| u64::from(size.x) * u64::from(size.y)).sum();
-    let width = widest.max((area as f64).sqrt() as u32).min(largest);
+    let width = widest.max(wanted).min(largest);
     let mut places = vec![None; sizes.len()];
     let (mut at, mut shelf) = (UVec2::ZERO, 0);
     for index in order {
@@ -85,6 +87,20 @@ fn copy(layer: &Layer, scale: f32, at: UVec2, size: UVec2, texels: &mut [[u8; 4]
         let start = (at.y as usize + row) * size.x as usize + at.x as usize;
         texels[start..start + width].copy_from_slice(source);
     }
+}
+
+/// A layer without as much of its left and right end as makes it fit a device's largest texture: what lies beyond the
+/// picture's border goes first, before anything has to be scaled.
+pub(super) fn trimmed(layer: &Layer, picture: UVec2, largest: u32) -> std::borrow::Cow<'_, Layer> {
+    if layer.size.x <= largest || picture.x > largest {
+        return std::borrow::Cow::Borrowed(layer);
+    }
+    let beside = (largest - picture.x) as i32 / 2;
+    let low = layer.origin.x.max(-beside);
+    let high = (layer.origin.x + layer.size.x as i32).min(picture.x as i32 + beside).max(low + 1);
+    let origin = IVec2::new(low, layer.origin.y);
+    let size = UVec2::new((high - low) as u32, layer.size.y);
+    std::borrow::Cow::Owned(Layer::from_fn(origin, size, |pixel| layer.get(pixel).unwrap_or([0; 4])))
 }
 
 /// A layer's texels at another scale, averaged in premultiplied linear light; the texels themselves at scale 1.

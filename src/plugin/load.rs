@@ -77,7 +77,7 @@ fn build_now(
     for root in &tours {
         if let Some(TourAsset(source)) = sources.get(&root.1.0) {
             let built = assemble(source, &|_, _| true);
-            commands.entity(root.0).insert(BuiltFrom(root.1.0.id()));
+            commands.entity(root.0).try_insert(BuiltFrom(root.1.0.id()));
             finish(&mut commands, &mut assets, root, &source.tour, built);
         }
     }
@@ -104,7 +104,7 @@ fn start_building(
         let Some(TourAsset(source)) = sources.get(id).filter(|_| is_new) else { continue };
         let source = Arc::clone(source);
         let task = AsyncComputeTaskPool::get().spawn(async move { assemble(&source, &|_, _| true) });
-        commands.entity(entity).insert((Building(task), BuiltFrom(id)));
+        commands.entity(entity).try_insert((Building(task), BuiltFrom(id)));
     }
 }
 
@@ -117,7 +117,7 @@ fn finish_building(
 ) {
     for (entity, mut task) in &mut building {
         let Some(built) = check_ready(&mut task.0) else { continue };
-        commands.entity(entity).remove::<Building>();
+        commands.entity(entity).try_remove::<Building>();
         if let Ok(root) = tours.get(entity)
             && let Some(TourAsset(source)) = sources.get(&root.1.0)
         {
@@ -146,8 +146,8 @@ fn finish(
             }
             spawn::show(commands, assets, entity, Arc::new(built), *policy, layers, before);
             match tour.path.as_ref().and_then(CameraPath::way) {
-                Some(path) => commands.entity(entity).insert(TourPath(path)),
-                None => commands.entity(entity).remove::<TourPath>(),
+                Some(path) => commands.entity(entity).try_insert(TourPath(path)),
+                None => commands.entity(entity).try_remove::<TourPath>(),
             };
             commands.trigger(TourReady { entity });
         }
@@ -173,37 +173,42 @@ fn report_failures(
     }
 }
 
-/// Children follow the root's render layers, which Bevy does not inherit.
+/// A tour's own parts, with the meshes below them that write depth; never what a game has parented to it.
+fn parts<'a>(shown: &'a ShownTour, children: &'a Query<&Children>) -> impl Iterator<Item = Entity> + 'a {
+    shown.parts.iter().flat_map(|&part| children.iter_descendants(part).chain([part]))
+}
+
+/// Parts follow the root's render layers, which Bevy does not inherit.
 fn follow_root(
     mut commands: Commands,
-    tours: Query<(Entity, &RenderLayers), (With<ShownTour>, Changed<RenderLayers>)>,
-    without: Query<(), (With<ShownTour>, Without<RenderLayers>)>,
+    tours: Query<(&ShownTour, &RenderLayers), Changed<RenderLayers>>,
+    without: Query<&ShownTour, Without<RenderLayers>>,
     mut removed: RemovedComponents<RenderLayers>,
     children: Query<&Children>,
 ) {
-    for root in removed.read().filter(|root| without.contains(*root)) {
-        for child in children.iter_descendants(root) {
-            commands.entity(child).remove::<RenderLayers>();
+    for shown in removed.read().filter_map(|root| without.get(root).ok()) {
+        for part in parts(shown, &children) {
+            commands.entity(part).try_remove::<RenderLayers>();
         }
     }
-    for (root, layers) in &tours {
-        for child in children.iter_descendants(root) {
-            commands.entity(child).insert(layers.clone());
+    for (shown, layers) in &tours {
+        for part in parts(shown, &children) {
+            commands.entity(part).try_insert(layers.clone());
         }
     }
 }
 
 /// Materials follow the root's color policy.
 fn follow_policy(
-    tours: Query<(Entity, &ColorPolicy), (With<ShownTour>, Changed<ColorPolicy>)>,
+    tours: Query<(&ShownTour, &ColorPolicy), Changed<ColorPolicy>>,
     children: Query<&Children>,
     surfaces: Query<&MeshMaterial3d<TourSurfaceMaterial>>,
     waters: Query<&MeshMaterial3d<TourWaterMaterial>>,
     mut surface_materials: ResMut<Assets<TourSurfaceMaterial>>,
     mut water_materials: ResMut<Assets<TourWaterMaterial>>,
 ) {
-    for (root, policy) in &tours {
-        for child in children.iter_descendants(root) {
+    for (shown, policy) in &tours {
+        for child in parts(shown, &children) {
             if let Some(mut material) = surfaces.get(child).ok().and_then(|it| surface_materials.get_mut(it))
             {
                 material.policy = *policy;

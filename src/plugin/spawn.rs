@@ -1,5 +1,6 @@
 //! An assembled tour as entities: one named child a component, one for the water, all gone with the root.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use bevy::asset::RenderAssetUsages;
@@ -55,7 +56,7 @@ pub(super) struct TourAssets<'w> {
 /// What every device that Bevy runs on can hold.
 const SMALLEST_LIMIT: u32 = 2048;
 
-/// The water and an infinite background reach this far, in background distances, as the background's own wall does.
+/// The water reaches this far, in background distances, as the background's own wall does.
 const REACH: f32 = 60.0;
 
 /// Replaces what is shown of a tour.
@@ -74,8 +75,14 @@ pub(super) fn show(
     let largest =
         assets.device.as_ref().map_or(SMALLEST_LIMIT, |device| device.limits().max_texture_dimension_2d);
     let scene = &tour.scene;
-    let maps: Vec<Option<&Layer>> =
-        tour.maps.components.iter().map(|maps| maps.reflection.as_ref()).collect();
+    let picture = scene.camera.intrinsics.size;
+    let trimmed: Vec<Option<Cow<Layer>>> = tour
+        .maps
+        .components
+        .iter()
+        .map(|maps| maps.reflection.as_ref().map(|map| atlas::trimmed(map, picture, largest)))
+        .collect();
+    let maps: Vec<Option<&Layer>> = trimmed.iter().map(Option::as_deref).collect();
     let atlas = atlas::pack(&maps, largest);
     if atlas.scale < 1.0 {
         warn!(
@@ -93,7 +100,7 @@ pub(super) fn show(
     let mut spawner = Spawner { commands, root, layers, parts: Vec::new() };
 
     for (index, component) in scene.components.iter().enumerate() {
-        let layer = &tour.maps.components[index].texture;
+        let layer = &*atlas::trimmed(&tour.maps.components[index].texture, picture, largest);
         let infinite = component.surface == Surface::Infinity;
         let (origin, size) = (layer.origin.as_vec2(), layer.size.as_vec2());
         let placed = Vec4::new(origin.x, origin.y, size.x, size.y);
@@ -137,7 +144,16 @@ pub(super) fn show(
         spawner.part("water", TourPart::Water, mesh, material, depth, false);
     }
     let parts = spawner.parts;
-    commands.entity(root).insert((SolvedTour(tour), ShownTour { records, image, parts }));
+    // Somebody may have despawned the root in this very frame; its parts must not outlive it.
+    let orphans = parts.clone();
+    commands.queue(move |world: &mut World| {
+        if world.get_entity(root).is_err() {
+            for part in orphans {
+                let _ = world.try_despawn(part);
+            }
+        }
+    });
+    commands.entity(root).try_insert((SolvedTour(tour), ShownTour { records, image, parts }));
 }
 
 struct Spawner<'a, 'w, 's> {
@@ -172,7 +188,6 @@ impl Spawner<'_, '_, '_> {
             .commands
             .spawn((
                 Name::new(format!("{name} (depth)")),
-                part,
                 DepthPass,
                 bundle,
                 MeshMaterial3d(depth),

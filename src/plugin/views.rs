@@ -3,6 +3,7 @@
 //! One order serves drawing, the water's shader and (the same function) the reference tracer: architecture.md,
 //! decision 6. Poses go from the game's world to the tour's in f64.
 
+use bevy::camera::visibility::RenderLayers;
 use bevy::math::{DAffine3, DMat4, DVec3};
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
@@ -20,20 +21,33 @@ pub(super) struct DrawOrder(pub HashMap<Entity, HashMap<Entity, f32>>);
 
 /// Writes every tour's records and the draw order.
 pub(super) fn look_at_tours(
-    mut tours: Query<(Entity, &GlobalTransform, &SolvedTour, &mut ShownTour)>,
-    cameras: Query<(Entity, &Camera, &GlobalTransform, Option<&TourCameraState>), With<Camera3d>>,
-    parts: Query<(&TourPart, Has<DepthPass>)>,
+    mut tours: Query<(Entity, &GlobalTransform, &SolvedTour, &mut ShownTour, Option<&RenderLayers>)>,
+    cameras: Query<
+        (Entity, &Camera, &GlobalTransform, Option<&TourCameraState>, Option<&RenderLayers>),
+        With<Camera3d>,
+    >,
+    parts: Query<&TourPart>,
+    depths: Query<(), With<DepthPass>>,
     children: Query<&Children>,
     mut images: ResMut<Assets<Image>>,
     mut order: ResMut<DrawOrder>,
 ) {
     let mut new_order: HashMap<Entity, HashMap<Entity, f32>> = HashMap::default();
-    for (root, tour_transform, solved, mut shown) in &mut tours {
+    for (root, tour_transform, solved, mut shown, layers) in &mut tours {
+        let layers = layers.cloned().unwrap_or_default();
         let tour_from_world = affine(tour_transform).inverse();
         let mut views = Vec::new();
-        for (camera, settings, transform, state) in &cameras {
-            if !settings.is_active || views.len() == MAX_VIEWS {
+        for (camera, settings, transform, state, seen) in &cameras {
+            let sees = seen.is_none_or(|seen| seen.intersects(&layers))
+                && (seen.is_some() || layers.intersects(&RenderLayers::default()));
+            if !settings.is_active || !sees {
                 continue;
+            }
+            if views.len() == MAX_VIEWS {
+                warn_once!(
+                    "a tour is drawn rightly by {MAX_VIEWS} cameras at most; the others see it from elsewhere"
+                );
+                break;
             }
             // A camera that flies this tour knows its pose exactly; the game's f32 world would round it.
             let exact = state.and_then(|state| state.pose_in(root));
@@ -46,10 +60,13 @@ pub(super) fn look_at_tours(
             let scale =
                 (affine(transform).matrix3.inverse() * affine(tour_transform).matrix3).x_axis.length();
             let ranks = sort_distances(&solved.scene, &tour_from_view, &near_to_far, scale);
-            for &part in &shown.parts {
-                for entity in children.get(part).into_iter().flatten().copied().chain([part]) {
-                    if let Ok((part, depth)) = parts.get(entity) {
-                        distances.insert(entity, ranks.of(*part, depth));
+            for &entity in &shown.parts {
+                if let Ok(part) = parts.get(entity) {
+                    distances.insert(entity, ranks.of(*part));
+                }
+                for &child in children.get(entity).into_iter().flatten() {
+                    if depths.contains(child) {
+                        distances.insert(child, ranks.depth);
                     }
                 }
             }
@@ -85,9 +102,8 @@ struct Ranks {
 }
 
 impl Ranks {
-    fn of(&self, part: TourPart, depth: bool) -> f32 {
+    fn of(&self, part: TourPart) -> f32 {
         match part {
-            _ if depth => self.depth,
             TourPart::Water => self.water,
             TourPart::Component(index) => self.components.get(index).copied().unwrap_or(self.water),
         }

@@ -132,7 +132,7 @@ fn billboard_wall(
         let ray = camera.ray(foot);
         let t = (height - ray.origin.y) / ray.direction.y;
         let depth = -(ray.at(t).z - camera.pose.position.z);
-        let placed = if t.is_finite() && t > 0.0 && depth <= farthest {
+        let placed = if t.is_finite() && t > 0.0 && depth > 0.0 && depth <= farthest {
             t
         } else {
             remarks.push(format!(
@@ -140,7 +140,7 @@ fn billboard_wall(
                  lower its contact line or mark the background farther away",
                 plan.name
             ));
-            -farthest / ray.direction.z
+            farthest / (-ray.direction.z).max(1e-3)
         };
         let point = ray.at(placed);
         DVec2::new(point.x, point.z)
@@ -174,7 +174,7 @@ fn billboard_wall(
 /// Where a ray meets a wall's plane; past `farthest` (or never) the ray's point at that depth is brought to the plane,
 /// which only happens to walls that recede to their own vanishing point.
 fn meet_within(plane: &Wall, ray: Ray, farthest: f64) -> Option<DVec3> {
-    let limit = 2.0 * farthest / -ray.direction.z;
+    let limit = 2.0 * farthest / (-ray.direction.z).max(1e-3);
     let t = plane.meet_plane(ray).unwrap_or(limit).min(limit);
     let point = ray.at(t);
     point.is_finite().then(|| plane.point(plane.along_of(point), point.y))

@@ -91,11 +91,10 @@ impl<'a> Reference<'a> {
         let mut light = Accumulated::default();
         for &index in near_to_far.iter().chain(&ground).chain(&[0]) {
             let component = &self.scene.components[index];
-            if component.surface == Surface::Infinity {
-                continue;
-            }
             if let Some(t) = component.surface.meet(ray) {
-                let at = self.eye.see(ray.at(t));
+                // At infinity only the direction counts.
+                let at =
+                    if t.is_finite() { self.eye.see(ray.at(t)) } else { self.eye.see_far(ray.direction) };
                 light.add(self.maps.components[index].texture.sample(at));
                 if light.left < OPAQUE {
                     return light.color;

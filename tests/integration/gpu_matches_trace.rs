@@ -1,12 +1,16 @@
 //! The GPU's frames are those of the reference tracer, on world A1, wherever in the game the tour stands.
 
+use std::sync::Arc;
+
 use bevy::asset::AssetPlugin;
 use bevy::prelude::*;
 use bevy::render::settings::WgpuLimits;
 use bevy::render::settings::{WgpuSettings, WgpuSettingsPriority};
+use bevy_picture_tour::assemble::TourSource;
 use bevy_picture_tour::camera::PinholeCamera;
 use bevy_picture_tour::headless::{HeadlessTour, headless_app, headless_app_with};
 use bevy_picture_tour::picture::{Picture, PngPixels, save_png};
+use bevy_picture_tour::tour::{BackgroundPlace, Tour};
 use bevy_picture_tour::trace::Reference;
 use bevy_picture_tour::trace::compare::Comparison;
 
@@ -76,6 +80,45 @@ fn a_kilometer_from_the_game_s_origin() {
     let Some(_gpu) = adapter() else { return };
     let place = Transform::from_xyz(1000.0, 50.0, -700.0).with_rotation(Quat::from_rotation_y(0.7));
     matches("far", headless_app().unwrap(), place);
+}
+
+#[test]
+fn the_demo_s_first_view_is_its_picture() {
+    let Some(_gpu) = adapter() else { return };
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lake/lake.tour.ron");
+    let source = Arc::new(TourSource::open(&path).unwrap());
+    let size = source.picture.size();
+    let mut gpu = HeadlessTour::new(source.clone(), size, Transform::default()).unwrap();
+    let solved = gpu.solved().expect("the tour is shown");
+    let own = solved.scene.camera;
+    let traced = Reference::new(&solved.scene, &solved.maps).render(&own, 1);
+    for (renderer, frame) in [("GPU", gpu.render(&own).unwrap()), ("reference", traced)] {
+        let found = Comparison::of(&frame, &source.picture).unwrap();
+        assert!(found.max_code_difference <= 1, "the {renderer} is {} codes off", found.max_code_difference);
+    }
+}
+
+#[test]
+fn a_background_at_infinity_is_drawn_alike() {
+    let Some(_gpu) = adapter() else { return };
+    let source = a1::source();
+    let mut file = source.tour.to_file();
+    file.background.place = Some(BackgroundPlace::Infinity);
+    let tour = Tour::check(file).unwrap();
+    let source = Arc::new(TourSource { tour, ..(*source).clone() });
+    let size = source.picture.size();
+    let mut gpu = HeadlessTour::new(source.clone(), size, Transform::default()).unwrap();
+    let solved = gpu.solved().expect("the tour is shown");
+    let reference = Reference::new(&solved.scene, &solved.maps);
+    for (i, pose) in [solved.scene.camera.pose, a1::poses()[3]].into_iter().enumerate() {
+        let camera = PinholeCamera { pose, ..solved.scene.camera };
+        let found = Comparison::of(&gpu.render(&camera).unwrap(), &reference.render(&camera, 1)).unwrap();
+        let within = found.share_within(3);
+        assert!(within >= WITHIN_3, "view {i}: {within:.5} within 3 codes, at least {WITHIN_3}");
+    }
+    let first = reference.render(&solved.scene.camera, 1);
+    let found = Comparison::of(&first, &source.picture).unwrap();
+    assert!(found.max_code_difference <= 1, "the first view is {} codes off", found.max_code_difference);
 }
 
 /// Set in the process that this test starts for itself.

@@ -74,7 +74,7 @@ pub(crate) struct RenderArguments {
     pub(crate) out: PathBuf,
     /// Render these views: a JSON list of `{"name", "position": [x, y, z], "yaw_deg", "pitch_deg", "roll_deg"}`
     ///
-    /// Meters: x right, y above the water, -z into the picture. Angles left out are 0. Each view becomes <name>.png.
+    /// Meters: x right, y above the water, -z into the picture. Angles left out are 0. Each view becomes NAME.png.
     #[arg(long, value_name = "FILE.json", conflicts_with_all = ["path", "at"])]
     pub(crate) views: Option<PathBuf>,
     /// Render the tour's camera path, as `frame_00000.png` and so on

@@ -10,7 +10,7 @@ pub use projection::TourProjection;
 
 use bevy::camera::Viewport;
 use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
-use bevy::math::DAffine3;
+use bevy::math::{DAffine3, DQuat};
 use bevy::prelude::*;
 use bevy::transform::helper::TransformHelper;
 
@@ -69,20 +69,30 @@ impl Default for TourCamera {
 /// Where a [`TourCamera`] is.
 #[derive(Component, Clone, Debug, Default)]
 pub struct TourCameraState {
-    /// The pose in the tour's space; `None` until the tour is ready.
+    /// The pose in the tour's space, meters; `None` until the tour is ready.
     pub pose: Option<CameraPose>,
     /// Seconds along the path.
     pub path_seconds: f64,
     tour: Option<Entity>,
     visitor: Visitor,
     wish: VisitorWish,
-    free: bool,
+    guide: Guide,
+    /// Where another guide has left the camera, and the seconds since: the new one takes over gently.
+    left: Option<(CameraPose, f64)>,
+    /// The viewport that the letterbox has set; a game's own is left alone.
+    letterbox: Option<(UVec2, UVec2)>,
 }
+
+/// Distance of the near plane, as a share of the height the picture was taken from.
+const NEAR: f64 = 0.03;
+
+/// Seconds in which a guide takes over from where another has left the camera.
+const TAKE_OVER: f64 = 1.2;
 
 impl TourCameraState {
     /// The exact view of `tour`, if this camera flies there by its own pose.
     pub(super) fn pose_in(&self, tour: Entity) -> Option<DAffine3> {
-        let pose = self.pose.filter(|_| self.tour == Some(tour) && !self.free)?;
+        let pose = self.pose.filter(|_| self.tour == Some(tour) && self.guide != Guide::Free)?;
         Some(DAffine3::from_rotation_translation(pose.rotation, pose.position))
     }
 
@@ -90,6 +100,20 @@ impl TourCameraState {
     #[must_use]
     pub fn tour(&self) -> Option<Entity> {
         self.tour
+    }
+
+    /// Goes to a guide's pose, gently while it takes over from another one.
+    fn take_over(&mut self, pose: CameraPose, seconds: f64) {
+        self.left =
+            self.left.map(|(from, since)| (from, since + seconds)).filter(|(_, since)| *since < TAKE_OVER);
+        self.pose = Some(self.left.map_or(pose, |(from, since)| {
+            let share = since / TAKE_OVER;
+            let share = share * share * (3.0 - 2.0 * share);
+            CameraPose {
+                position: from.position.lerp(pose.position, share),
+                rotation: from.rotation.slerp(pose.rotation, share),
+            }
+        }));
     }
 
     /// Glides back to where the painter stood, as the key `Home` does.
@@ -137,32 +161,39 @@ pub(super) fn move_cameras(
             state.visitor = Visitor::default();
             state.path_seconds = 0.0;
             state.pose = Some(home);
+            state.left = None;
+            state.guide = camera.guide;
         }
         state.tour = Some(tour);
-        state.free = camera.guide == Guide::Free;
-        let roll = if state.free { home.angles().2 } else { 0.0 };
-        if arrived || solved.is_changed() || !fits(&projection, camera.fit, roll) {
-            let mut lens = TourProjection::new(solved.scene.camera.intrinsics, camera.fit);
+        if state.guide != camera.guide {
+            state.left = state.pose.map(|pose| (pose, 0.0));
+            state.guide = camera.guide;
+        }
+        let roll = if camera.guide == Guide::Free { home.angles().2 } else { 0.0 };
+        let letterboxed = letterbox(&mut settings, &mut state, &solved, camera.fit);
+        // Inside its letterbox the picture covers the viewport but for less than a pixel.
+        let fit = if letterboxed { Fit::Cover } else { camera.fit };
+        if arrived || solved.is_changed() || !fits(&projection, fit, roll) {
+            let mut lens = TourProjection::new(solved.scene.camera.intrinsics, fit);
+            lens.near = NEAR * home.position.y.abs().max(1e-3);
             lens.roll = roll;
             *projection = Projection::custom(lens);
         }
-        letterbox(&mut settings, &solved, camera.fit);
         let wish = std::mem::take(&mut state.wish);
         match camera.guide {
             Guide::Visitor => {
                 let look_limit = camera.visitor.look_limit.min(solved.scene.bounds.look);
                 let scale = solved.scene.bounds.nearest;
                 let manner = VisitorSettings { scale, look_limit, ..camera.visitor };
-                let visitor = state.visitor.step(&manner, &home, bounds, &wish, seconds);
-                if visitor != state.visitor || state.pose != Some(home) {
-                    state.pose = Some(visitor.pose(&manner, &home, bounds));
-                    state.visitor = visitor;
-                }
+                state.visitor = state.visitor.step(&manner, &home, bounds, &wish, seconds);
+                let pose = state.visitor.pose(&manner, &home, bounds);
+                state.take_over(pose, seconds);
             }
             Guide::Path => {
                 state.path_seconds += seconds;
                 let path = paths.get(tour).ok();
-                state.pose = Some(path.map_or(home, |path| path.0.at(state.path_seconds)));
+                let pose = path.map_or(home, |path| path.0.at(state.path_seconds));
+                state.take_over(pose, seconds);
             }
             Guide::Free | Guide::Still => {}
         }
@@ -174,46 +205,60 @@ fn fits(projection: &Projection, fit: Fit, roll: f64) -> bool {
     custom.get::<TourProjection>().is_some_and(|lens| lens.fit == fit && lens.roll == roll)
 }
 
-/// Gives a camera that contains the picture the viewport of the picture's shape; others keep theirs.
-fn letterbox(camera: &mut Mut<Camera>, tour: &SolvedTour, fit: Fit) {
-    if fit != Fit::Contain {
-        return;
+/// Gives a camera that contains the picture a viewport of the picture's shape, and takes it away again; a viewport that
+/// the game has set stays. Says whether the picture fills the viewport by this.
+fn letterbox(camera: &mut Mut<Camera>, state: &mut TourCameraState, tour: &SolvedTour, fit: Fit) -> bool {
+    let current = camera.viewport.as_ref().map(|view| (view.physical_position, view.physical_size));
+    if current.is_some() && current != state.letterbox {
+        return false;
     }
-    let Some(target) = camera.physical_target_size().filter(|size| size.min_element() > 0) else { return };
-    let view = fitted(&tour.scene.camera.intrinsics, target, fit);
-    let wanted = (view.viewport_size != target).then(|| Viewport {
-        physical_position: view.viewport_min,
-        physical_size: view.viewport_size,
-        ..default()
+    let target = camera.physical_target_size().filter(|size| size.min_element() > 0);
+    let wanted = target.filter(|_| fit == Fit::Contain).and_then(|target| {
+        let view = fitted(&tour.scene.camera.intrinsics, target, fit);
+        (view.viewport_size != target).then_some((view.viewport_min, view.viewport_size))
     });
-    let same = match (&camera.viewport, &wanted) {
-        (None, None) => true,
-        (Some(a), Some(b)) => {
-            a.physical_position == b.physical_position && a.physical_size == b.physical_size
-        }
-        _ => false,
-    };
-    if !same {
-        camera.viewport = wanted;
+    if current != wanted {
+        camera.viewport = wanted.map(|(physical_position, physical_size)| Viewport {
+            physical_position,
+            physical_size,
+            ..default()
+        });
+        state.letterbox = wanted;
     }
+    wanted.is_some()
 }
 
 /// Writes each camera's `Transform` from its pose in the tour's space, or reads it when somebody else flies.
 pub(super) fn place_cameras(
-    cameras: Query<(Entity, &TourCameraState)>,
+    mut cameras: Query<(Entity, &mut TourCameraState, &Projection)>,
     mut commands: Commands,
     transforms: TransformHelper,
     parents: Query<&ChildOf>,
     current: Query<&Transform>,
 ) {
-    for (entity, state) in &cameras {
+    for (entity, mut state, projection) in &mut cameras {
         let (Some(tour), Some(pose)) = (state.tour, state.pose) else { continue };
-        if state.free && current.get(entity).is_ok_and(|transform| *transform != Transform::default()) {
+        let Ok(world_from_tour) = transforms.compute_global_transform(tour) else { continue };
+        let free = state.guide == Guide::Free;
+        // What the projection rolls, the transform does not.
+        let kept = match projection {
+            Projection::Custom(custom) if free => {
+                custom.get::<TourProjection>().map_or(0.0, |lens| lens.roll)
+            }
+            _ => 0.0,
+        };
+        if free && current.get(entity).is_ok_and(|transform| *transform != Transform::default()) {
+            if let Ok(world_from_view) = transforms.compute_global_transform(entity) {
+                let view = world_from_view.reparented_to(&world_from_tour);
+                state.pose = Some(CameraPose {
+                    position: view.translation.as_dvec3(),
+                    rotation: view.rotation.as_dquat() * DQuat::from_rotation_z(kept),
+                });
+            }
             continue;
         }
-        let Ok(world_from_tour) = transforms.compute_global_transform(tour) else { continue };
-        let local =
-            Transform::from_translation(pose.position.as_vec3()).with_rotation(pose.rotation.as_quat());
+        let rotation = pose.rotation * DQuat::from_rotation_z(-kept);
+        let local = Transform::from_translation(pose.position.as_vec3()).with_rotation(rotation.as_quat());
         let world = world_from_tour * local;
         let parent = parents
             .get(entity)
@@ -222,7 +267,7 @@ pub(super) fn place_cameras(
         let placed = parent.map_or_else(|| world.compute_transform(), |parent| world.reparented_to(&parent));
         let placed = Transform { scale: Vec3::ONE, ..placed };
         if current.get(entity).is_ok_and(|transform| *transform != placed) {
-            commands.entity(entity).insert(placed);
+            commands.entity(entity).try_insert(placed);
         }
     }
 }

@@ -1,11 +1,10 @@
 //! The picture's own projection, in a viewport of any shape.
 
 use bevy::camera::{CameraProjection, SubCameraView};
-use bevy::math::{DMat4, Mat4, UVec2, Vec3A, Vec4};
+use bevy::math::{DMat4, DVec2, Mat4, Vec3A, Vec4};
 
 use crate::camera::Fit;
 use crate::camera::Intrinsics;
-use crate::camera::fitted;
 
 /// A pinhole projection with an off-center principal point; reverse z, no far plane.
 #[derive(Clone, Debug)]
@@ -18,21 +17,28 @@ pub struct TourProjection {
     pub roll: f64,
     /// Distance of the near plane in the game's units, above 0.
     pub near: f64,
-    viewport: UVec2,
+    viewport: DVec2,
 }
 
 impl TourProjection {
     /// The projection of a picture's lens.
     #[must_use]
     pub fn new(picture: Intrinsics, fit: Fit) -> Self {
-        Self { picture, fit, roll: 0.0, near: 0.05, viewport: picture.size }
+        Self { picture, fit, roll: 0.0, near: 0.05, viewport: picture.size.as_dvec2() }
     }
 }
 
 impl CameraProjection for TourProjection {
     fn get_clip_from_view(&self) -> Mat4 {
-        let lens = fitted(&self.picture, self.viewport, self.fit).intrinsics;
-        let clip = lens.clip_from_view(self.near) * DMat4::from_rotation_z(-self.roll);
+        // The picture's own clip space, enlarged about its center until it covers the viewport or fits in.
+        let ratio = self.viewport / self.picture.size.as_dvec2();
+        let scale = match self.fit {
+            Fit::Cover => ratio.max_element(),
+            Fit::Contain => ratio.min_element(),
+        };
+        let share = scale / ratio;
+        let fit = DMat4::from_scale(share.extend(1.0));
+        let clip = fit * self.picture.clip_from_view(self.near) * DMat4::from_rotation_z(-self.roll);
         clip.as_mat4()
     }
 
@@ -52,7 +58,8 @@ impl CameraProjection for TourProjection {
     }
 
     fn update(&mut self, width: f32, height: f32) {
-        self.viewport = UVec2::new(width.round().max(1.0) as u32, height.round().max(1.0) as u32);
+        // In logical pixels, so not always whole.
+        self.viewport = DVec2::new(width.into(), height.into()).max(DVec2::splat(1e-3));
     }
 
     fn far(&self) -> f32 {
@@ -73,6 +80,8 @@ impl CameraProjection for TourProjection {
 
 #[cfg(test)]
 mod tests {
+    use bevy::math::UVec2;
+
     use super::*;
     use crate::picture::PicturePoint;
 

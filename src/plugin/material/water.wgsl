@@ -26,8 +26,9 @@ fn vertex(vertex: Vertex) -> TourVertex {
 
 // A reflection map at a picture point; its border is prolonged.
 fn sample_map(found: Component, at: vec2<f32>) -> vec4<f32> {
-    let inside = clamp(snap(at) - found.layer.xy, vec2(0.5), found.layer.zw - 0.5);
-    let texel = found.atlas.xy + inside * found.atlas.z;
+    // Half a texel inside, or the maps beside it in the atlas would bleed in.
+    let last = round(found.layer.zw * found.atlas.z) - 0.5;
+    let texel = found.atlas.xy + clamp((snap(at) - found.layer.xy) * found.atlas.z, vec2(0.5), last);
     return textureSampleLevel(atlas, atlas_sampler, texel / vec2<f32>(textureDimensions(atlas)), 0.0);
 }
 

@@ -27,7 +27,14 @@ pub(super) struct Current {
     /// When the newest of its files was written, as far as it was read.
     written: Option<SystemTime>,
     seconds: f32,
-    reading: Option<Task<(PathBuf, Result<open::Opened, Failure>)>>,
+    reading: Option<Task<Reread>>,
+}
+
+/// A tour file that was read, when it was begun, and what came of it.
+struct Reread {
+    path: PathBuf,
+    began: SystemTime,
+    opened: Result<open::Opened, Failure>,
 }
 
 impl Current {
@@ -38,8 +45,9 @@ impl Current {
 
     fn read(&mut self, path: PathBuf) {
         self.reading = Some(AsyncComputeTaskPool::get().spawn(async move {
+            let began = SystemTime::now();
             let opened = open::open(Some(&path));
-            (path, opened)
+            Reread { path, began, opened }
         }));
     }
 }
@@ -94,12 +102,13 @@ pub(super) fn take_reread(
     mut tours: ResMut<Assets<TourAsset>>,
     mut overlay: ResMut<Overlay>,
 ) {
-    let Some((path, opened)) = current.reading.as_mut().and_then(check_ready) else { return };
+    let Some(Reread { path, began, opened }) = current.reading.as_mut().and_then(check_ready) else { return };
     current.reading = None;
     match opened {
         Ok(opened) => {
             let source = Arc::new(opened.source);
-            current.written = newest(&path, &source);
+            // What was written while it was read is read again.
+            current.written = newest(&path, &source).map(|written| written.min(began));
             current.path = Some(path);
             current.name = opened.name;
             current.source = Arc::clone(&source);
@@ -108,7 +117,9 @@ pub(super) fn take_reread(
                 overlay.say("The tour could not be replaced; start the program anew with it.");
             }
         }
-        Err(failure) => tell(&mut overlay, &failure.to_string()),
+        // The shown tour's own file: the message stays until it is mended. Another one's: it fades.
+        Err(failure) if current.path.as_ref() == Some(&path) => tell(&mut overlay, &failure.to_string()),
+        Err(failure) => overlay.say(failure.to_string().trim_end()),
     }
 }
 
