@@ -105,10 +105,11 @@ impl World {
             let mut pairs = Vec::new();
             for (i, pair) in list(&scene["pairs"]).iter().enumerate() {
                 let on = pair["on"].as_str().map(str::to_owned);
+                let behind = !banded && pair["object"].as_str().is_none_or(|object| object == "background");
                 pairs.push(ReflectionPair {
                     point: point(&pair["point"])?,
                     reflection: point(&pair["reflection"])?,
-                    on: on.or_else(|| (!banded).then(|| "background".to_owned())),
+                    on: on.or_else(|| behind.then(|| "background".to_owned())),
                     name: pair["object"].as_str().map(|object| format!("pair {} ({object})", i + 1)),
                 });
             }
@@ -120,7 +121,12 @@ impl World {
         }
         let no_pair_behind = !list(&scene["pairs"]).iter().any(|pair| pair["on"].is_null());
         if banded || no_pair_behind {
-            let shore = list(&scene["waterline"]).iter().map(point).collect::<Result<Vec<_>, _>>()?;
+            let mut shore = list(&scene["waterline"]).iter().map(point).collect::<Result<Vec<_>, _>>()?;
+            if let Some([a, b]) = tour.camera.horizon {
+                // What reaches up to the horizon tells no distance.
+                let rise = (b.y() - a.y()) / (b.x() - a.x());
+                shore.retain(|point| point.y() > a.y() + rise * (point.x() - a.x()) + 1.0);
+            }
             if shore.len() >= 2 {
                 tour.background =
                     Background { place: Some(BackgroundPlace::Contact(shore)), bands: Vec::new() };

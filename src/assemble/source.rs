@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use glam::UVec2;
+use glam::{DVec2, UVec2};
 
 use crate::picture::Lens;
 use crate::picture::Mask;
 use crate::picture::Picture;
 use crate::picture::PictureError;
+use crate::picture::PicturePoint;
 use crate::picture::PixelRect;
 use crate::picture::decode_mask;
 use crate::picture::decode_picture;
@@ -19,6 +20,9 @@ use crate::tour::Tour;
 
 /// The most pixels that maps are built from: each takes some hundred bytes while they are.
 const MOST_PIXELS: u64 = 64_000_000;
+
+/// How far beside the water a reflection may be marked, as a share of the picture's width.
+const MARK_SHARE: f64 = 0.002;
 
 /// A tour and the pixels it speaks of; picture, masks and numbers all refer to the part that is used.
 #[derive(Clone, Debug)]
@@ -121,7 +125,14 @@ impl TourSource {
             }
         }
         if let Some(mask) = &water {
-            problems.extend(used.dry_reflections(&|point| mask.sample(point)));
+            // A mark may be off by a pixel or two of a picture of usual size.
+            let off = (MARK_SHARE * f64::from(rect.size().x)).round() as i32;
+            let wet = |point: PicturePoint| {
+                let around =
+                    (-off..=off).flat_map(|y| (-off..=off).map(move |x| DVec2::new(x.into(), y.into())));
+                around.map(|step| mask.sample(PicturePoint(point.0 + step))).fold(0.0, f32::max)
+            };
+            problems.extend(used.dry_reflections(&wet));
         }
         if !problems.is_empty() {
             return Err(Problems(problems));

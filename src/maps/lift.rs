@@ -5,6 +5,7 @@
 
 use crate::picture::color::linear_from_srgb;
 use crate::picture::color::srgb_from_linear;
+use crate::picture::color::srgb_from_linear_f32;
 
 /// Lays a stored texel over a linear-light color.
 #[must_use]
@@ -34,20 +35,44 @@ pub(super) fn lifted(target: [u8; 3], behind: [f32; 3], alpha: u8) -> [u8; 4] {
             needed = needed.max((i - b) / (1.0 - b));
         }
     }
-    let stored = (needed * 255.0).ceil().clamp(1.0, 255.0);
-    let a = stored / 255.0;
-    let color: [u8; 3] = std::array::from_fn(|c| nearest_code(wanted[c], target[c], behind[c], a));
-    [color[0], color[1], color[2], stored as u8]
+    // A dark pixel under a bright, thin layer may lie between two codes: a little more coverage makes the steps finer.
+    let first = (needed * 255.0).ceil().clamp(1.0, 255.0) as u8;
+    let mut best = (f32::INFINITY, [0; 4]);
+    for stored in first..=first.saturating_add(MOST_STEPS) {
+        let a = f32::from(stored) / 255.0;
+        let (mut texel, mut worst) = ([0, 0, 0, stored], 0.0_f32);
+        for c in 0..3 {
+            let (code, off) = nearest_code(wanted[c], target[c], behind[c], a);
+            texel[c] = code;
+            worst = worst.max(off);
+        }
+        if worst < best.0 {
+            best = (worst, texel);
+        }
+        if worst <= CLOSE {
+            break;
+        }
+    }
+    best.1
 }
 
-/// The code whose blend shows `target`; among neighbors the first that rounds to it.
-fn nearest_code(wanted: f32, target: u8, behind: f32, a: f32) -> u8 {
+/// A blend this near to its target, in codes, is it on any device, whatever the rounding.
+const CLOSE: f32 = 0.35;
+
+/// Steps of 1/255 by which coverage is raised at most for the sake of finer steps.
+const MOST_STEPS: u8 = 24;
+
+/// The code whose blend comes nearest to `target`, and how far from it that is, in codes.
+fn nearest_code(wanted: f32, target: u8, behind: f32, a: f32) -> (u8, f32) {
     let exact = srgb_from_linear(((wanted - (1.0 - a) * behind) / a).clamp(0.0, 1.0));
-    let shows = |code: u8| srgb_from_linear(a * linear_from_srgb(code) + (1.0 - a) * behind) == target;
+    let off = |code: u8| {
+        let blend = a * linear_from_srgb(code) + (1.0 - a) * behind;
+        (255.0 * srgb_from_linear_f32(blend) - f32::from(target)).abs()
+    };
     [exact, exact.saturating_sub(1), exact.saturating_add(1)]
+        .map(|code| (code, off(code)))
         .into_iter()
-        .find(|&code| shows(code))
-        .unwrap_or(exact)
+        .fold((exact, f32::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
 }
 
 #[cfg(test)]

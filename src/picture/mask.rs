@@ -12,7 +12,7 @@ use super::raster::{check_count, index};
 use super::{PictureError, PicturePoint, PixelRect};
 
 /// Coverage 0–1 for each pixel of a picture, kept as 0–255.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Mask {
     size: UVec2,
     coverage: Vec<u8>,
@@ -21,6 +21,13 @@ pub struct Mask {
 /// Scan lines a pixel row in [`Mask::from_polygon`]: a power of two above 8, so that level edges on half and quarter
 /// pixels come out exact. Along the lines coverage is exact for any edge.
 const LINES: u32 = 16;
+
+impl std::fmt::Debug for Mask {
+    /// The size alone: nobody reads millions of pixels.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Mask").field("size", &self.size).finish_non_exhaustive()
+    }
+}
 
 impl Mask {
     /// A mask of `size` pixels, row by row from the top left; 0 is no coverage, 255 all of the pixel.

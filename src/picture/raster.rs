@@ -7,7 +7,7 @@ use glam::UVec2;
 use super::PictureError;
 
 /// The one still picture: 8-bit sRGB, row-major, top-left pixel first.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, PartialEq, Eq)]
 pub struct Picture {
     size: UVec2,
     pixels: Vec<[u8; 3]>,
@@ -27,6 +27,13 @@ impl PixelRect {
     #[must_use]
     pub fn size(self) -> UVec2 {
         self.max.saturating_sub(self.min)
+    }
+}
+
+impl std::fmt::Debug for Picture {
+    /// The size alone: nobody reads millions of pixels.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Picture").field("size", &self.size).finish_non_exhaustive()
     }
 }
 
