@@ -13,7 +13,7 @@ use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
 use super::PictureTourSystems;
 use super::asset::{TourAsset, TourLoader};
 use super::camera::TourPath;
-use super::material::{ColorPolicy, TourSurfaceMaterial, TourWaterMaterial};
+use super::material::{ColorPolicy, TourMaterial};
 use super::spawn::{self, ShownTour, TourAssets};
 use crate::assemble::AssembleError;
 use crate::assemble::AssembledTour;
@@ -202,18 +202,12 @@ fn follow_root(
 fn follow_policy(
     tours: Query<(&ShownTour, &ColorPolicy), Changed<ColorPolicy>>,
     children: Query<&Children>,
-    surfaces: Query<&MeshMaterial3d<TourSurfaceMaterial>>,
-    waters: Query<&MeshMaterial3d<TourWaterMaterial>>,
-    mut surface_materials: ResMut<Assets<TourSurfaceMaterial>>,
-    mut water_materials: ResMut<Assets<TourWaterMaterial>>,
+    handles: Query<&MeshMaterial3d<TourMaterial>>,
+    mut materials: ResMut<Assets<TourMaterial>>,
 ) {
     for (shown, policy) in &tours {
         for child in parts(shown, &children) {
-            if let Some(mut material) = surfaces.get(child).ok().and_then(|it| surface_materials.get_mut(it))
-            {
-                material.policy = *policy;
-            }
-            if let Some(mut material) = waters.get(child).ok().and_then(|it| water_materials.get_mut(it)) {
+            if let Some(mut material) = handles.get(child).ok().and_then(|handle| materials.get_mut(handle)) {
                 material.policy = *policy;
             }
         }

@@ -11,7 +11,7 @@ use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
 use super::atlas::{self, Place};
-use super::material::{ColorPolicy, TourSurfaceMaterial, TourUniform, TourWaterMaterial};
+use super::material::{ColorPolicy, TourMaterial, TourUniform};
 use super::records::Records;
 use crate::assemble::AssembledTour;
 use crate::maps::Layer;
@@ -48,8 +48,7 @@ pub(super) struct ShownTour {
 pub(super) struct TourAssets<'w> {
     images: ResMut<'w, Assets<Image>>,
     meshes: ResMut<'w, Assets<Mesh>>,
-    surfaces: ResMut<'w, Assets<TourSurfaceMaterial>>,
-    waters: ResMut<'w, Assets<TourWaterMaterial>>,
+    materials: ResMut<'w, Assets<TourMaterial>>,
     device: Option<Res<'w, bevy::render::renderer::RenderDevice>>,
 }
 
@@ -105,30 +104,30 @@ pub(super) fn show(
         let (origin, size) = (layer.origin.as_vec2(), layer.size.as_vec2());
         let placed = Vec4::new(origin.x, origin.y, size.x, size.y);
         let uniform = TourUniform::new(scene, index, placed, infinite);
-        let material = TourSurfaceMaterial {
+        let material = TourMaterial {
             tour: uniform,
             records: image.clone(),
-            texture_map: assets.images.add(texture(layer, largest)),
+            map: assets.images.add(texture(layer, largest)),
             policy,
             depth_only: false,
+            water: false,
         };
-        let depth = TourSurfaceMaterial { tour: uniform.depth_only(), depth_only: true, ..material.clone() };
         let mesh = assets.meshes.add(quad(corners(&component.surface)));
-        let depth = assets.surfaces.add(depth);
-        let material = assets.surfaces.add(material);
+        let depth = assets.materials.add(material.depth_only());
+        let material = assets.materials.add(material);
         spawner.part(&component.name, TourPart::Component(index), mesh, material, depth, infinite);
     }
     if scene.water {
         let uniform = TourUniform::new(scene, 0, Vec4::ONE, false);
         let size = Extent3d { width: atlas.size.x, height: atlas.size.y, depth_or_array_layers: 1 };
-        let material = TourWaterMaterial {
+        let material = TourMaterial {
             tour: uniform,
             records: image.clone(),
-            atlas: assets.images.add(image_of(size, atlas.texels.as_flattened().to_vec())),
+            map: assets.images.add(image_of(size, atlas.texels.as_flattened().to_vec())),
             policy,
             depth_only: false,
+            water: true,
         };
-        let depth = TourWaterMaterial { tour: uniform.depth_only(), depth_only: true, ..material.clone() };
         let reach = match scene.background().surface {
             Surface::Wall(wall) => REACH * wall.foot.length() as f32,
             _ => 1e4,
@@ -139,8 +138,8 @@ pub(super) fn show(
             Vec3::new(-reach, 0.0, reach),
             Vec3::new(reach, 0.0, reach),
         ]));
-        let depth = assets.waters.add(depth);
-        let material = assets.waters.add(material);
+        let depth = assets.materials.add(material.depth_only());
+        let material = assets.materials.add(material);
         spawner.part("water", TourPart::Water, mesh, material, depth, false);
     }
     let parts = spawner.parts;
@@ -164,13 +163,13 @@ struct Spawner<'a, 'w, 's> {
 }
 
 impl Spawner<'_, '_, '_> {
-    fn part<M: Material>(
+    fn part(
         &mut self,
         name: &str,
         part: TourPart,
         mesh: Handle<Mesh>,
-        material: Handle<M>,
-        depth: Handle<M>,
+        material: Handle<TourMaterial>,
+        depth: Handle<TourMaterial>,
         infinite: bool,
     ) {
         let bundle = (Mesh3d(mesh), Transform::default(), Visibility::default());

@@ -58,18 +58,15 @@ fn the_tour_uniform_reaches_the_shader_unmoved() {
 }
 
 #[test]
-fn both_shaders_bind_what_the_materials_send() {
+fn the_shader_binds_what_the_material_sends() {
     // The bindings of `AsBindGroup`: 0 the uniform, 1 the records, 2 and 3 a texture and its sampler.
-    for (file, source) in
-        [("surface.wgsl", include_str!("surface.wgsl")), ("water.wgsl", include_str!("water.wgsl"))]
-    {
-        let bindings =
-            ["var<uniform> tour: TourUniform", "var records: texture_2d<f32>", "texture_2d<f32>", "sampler"];
-        for (number, what) in bindings.into_iter().enumerate() {
-            let binding = format!("@binding({number}) ");
-            let line = source.lines().find(|line| line.contains(&binding));
-            let line = line.unwrap_or_else(|| panic!("{file} has no {binding}"));
-            assert!(line.contains(what), "{file}: binding {number} is not {what:?}: {line}");
-        }
+    let source = include_str!("part.wgsl");
+    let bindings =
+        ["var<uniform> tour: TourUniform", "var records: texture_2d<f32>", "texture_2d<f32>", "sampler"];
+    for (number, what) in bindings.into_iter().enumerate() {
+        let binding = format!("@binding({number}) ");
+        let line = source.lines().find(|line| line.contains(&binding));
+        let line = line.unwrap_or_else(|| panic!("part.wgsl has no {binding}"));
+        assert!(line.contains(what), "binding {number} is not {what:?}: {line}");
     }
 }

@@ -1,6 +1,6 @@
-//! The tour's materials: one for what is seen directly, one for the water; WGSL lies beside.
+//! The tour's material, for what is seen directly and for the water; WGSL lies beside.
 //!
-//! Both read the picture's sRGB codes and write them back unlit; where things are comes from the records texture.
+//! It reads the picture's sRGB codes and writes them back unlit; where things are comes from the records texture.
 
 use bevy::asset::{AssetPath, embedded_asset, embedded_path};
 use bevy::mesh::MeshVertexBufferLayoutRef;
@@ -32,6 +32,8 @@ pub(super) struct TourPass {
     graded: bool,
     /// Writes depth and no color.
     depth_only: bool,
+    /// Is the water.
+    water: bool,
 }
 
 /// Mirrors `TourUniform` of `tour.wgsl`.
@@ -72,149 +74,103 @@ impl TourUniform {
     }
 }
 
-/// A component seen directly.
+/// A part of a tour: a component seen directly, or the water.
 #[derive(Asset, AsBindGroup, TypePath, Clone, Debug)]
 #[bind_group_data(TourPass)]
-pub(super) struct TourSurfaceMaterial {
+pub(super) struct TourMaterial {
     #[uniform(0)]
     pub(super) tour: TourUniform,
     #[texture(1, sample_type = "float", filterable = false, visibility(vertex, fragment))]
     pub(super) records: Handle<Image>,
+    /// The component's texture map, or all reflection maps in one.
     #[texture(2)]
     #[sampler(3)]
-    pub(super) texture_map: Handle<Image>,
+    pub(super) map: Handle<Image>,
     pub(super) policy: ColorPolicy,
     pub(super) depth_only: bool,
+    pub(super) water: bool,
 }
 
-/// The water.
-#[derive(Asset, AsBindGroup, TypePath, Clone, Debug)]
-#[bind_group_data(TourPass)]
-pub(super) struct TourWaterMaterial {
-    #[uniform(0)]
-    pub(super) tour: TourUniform,
-    #[texture(1, sample_type = "float", filterable = false, visibility(vertex, fragment))]
-    pub(super) records: Handle<Image>,
-    #[texture(2)]
-    #[sampler(3)]
-    pub(super) atlas: Handle<Image>,
-    pub(super) policy: ColorPolicy,
-    pub(super) depth_only: bool,
-}
-
-impl From<&TourSurfaceMaterial> for TourPass {
-    fn from(material: &TourSurfaceMaterial) -> Self {
-        Self { graded: material.policy == ColorPolicy::Graded, depth_only: material.depth_only }
+impl TourMaterial {
+    /// The same part in the pass that writes depth only.
+    pub(super) fn depth_only(&self) -> Self {
+        Self { tour: self.tour.depth_only(), depth_only: true, ..self.clone() }
     }
 }
 
-impl From<&TourWaterMaterial> for TourPass {
-    fn from(material: &TourWaterMaterial) -> Self {
-        Self { graded: material.policy == ColorPolicy::Graded, depth_only: material.depth_only }
-    }
-}
-
-/// What both materials ask of their pipelines.
-fn specialize(
-    descriptor: &mut RenderPipelineDescriptor,
-    layout: &MeshVertexBufferLayoutRef,
-    pass: TourPass,
-) -> Result<(), SpecializedMeshPipelineError> {
-    descriptor.vertex.buffers = vec![layout.0.get_layout(&[Mesh::ATTRIBUTE_POSITION.at_shader_location(0)])?];
-    descriptor.primitive.cull_mode = None;
-    if let Some(depth) = &mut descriptor.depth_stencil {
-        depth.depth_write_enabled = Some(pass.depth_only);
-    }
-    if let Some(fragment) = &mut descriptor.fragment {
-        if pass.graded {
-            fragment.shader_defs.push("TOUR_GRADED".into());
+impl From<&TourMaterial> for TourPass {
+    fn from(material: &TourMaterial) -> Self {
+        Self {
+            graded: material.policy == ColorPolicy::Graded,
+            depth_only: material.depth_only,
+            water: material.water,
         }
-        if pass.depth_only {
-            for target in fragment.targets.iter_mut().flatten() {
-                target.write_mask = ColorWrites::empty();
+    }
+}
+
+fn shader() -> ShaderRef {
+    ShaderRef::Path(AssetPath::from_path_buf(embedded_path!("part.wgsl")).with_source("embedded"))
+}
+
+impl Material for TourMaterial {
+    fn vertex_shader() -> ShaderRef {
+        shader()
+    }
+
+    fn fragment_shader() -> ShaderRef {
+        shader()
+    }
+
+    fn alpha_mode(&self) -> AlphaMode {
+        AlphaMode::Blend
+    }
+
+    fn enable_prepass() -> bool {
+        false
+    }
+
+    fn enable_shadows() -> bool {
+        false
+    }
+
+    fn specialize(
+        _pipeline: &MaterialPipeline,
+        descriptor: &mut RenderPipelineDescriptor,
+        layout: &MeshVertexBufferLayoutRef,
+        key: MaterialPipelineKey<Self>,
+    ) -> Result<(), SpecializedMeshPipelineError> {
+        let pass = key.bind_group_data;
+        descriptor.vertex.buffers =
+            vec![layout.0.get_layout(&[Mesh::ATTRIBUTE_POSITION.at_shader_location(0)])?];
+        descriptor.primitive.cull_mode = None;
+        if let Some(depth) = &mut descriptor.depth_stencil {
+            depth.depth_write_enabled = Some(pass.depth_only);
+        }
+        if let Some(fragment) = &mut descriptor.fragment {
+            if pass.graded {
+                fragment.shader_defs.push("TOUR_GRADED".into());
+            }
+            if pass.water {
+                fragment.shader_defs.push("TOUR_WATER".into());
+            }
+            if pass.depth_only {
+                for target in fragment.targets.iter_mut().flatten() {
+                    target.write_mask = ColorWrites::empty();
+                }
             }
         }
-    }
-    Ok(())
-}
-
-fn shader(path: std::path::PathBuf) -> ShaderRef {
-    ShaderRef::Path(AssetPath::from_path_buf(path).with_source("embedded"))
-}
-
-impl Material for TourSurfaceMaterial {
-    fn vertex_shader() -> ShaderRef {
-        shader(embedded_path!("surface.wgsl"))
-    }
-
-    fn fragment_shader() -> ShaderRef {
-        shader(embedded_path!("surface.wgsl"))
-    }
-
-    fn alpha_mode(&self) -> AlphaMode {
-        AlphaMode::Blend
-    }
-
-    fn enable_prepass() -> bool {
-        false
-    }
-
-    fn enable_shadows() -> bool {
-        false
-    }
-
-    fn specialize(
-        _pipeline: &MaterialPipeline,
-        descriptor: &mut RenderPipelineDescriptor,
-        layout: &MeshVertexBufferLayoutRef,
-        key: MaterialPipelineKey<Self>,
-    ) -> Result<(), SpecializedMeshPipelineError> {
-        specialize(descriptor, layout, key.bind_group_data)
+        Ok(())
     }
 }
 
-impl Material for TourWaterMaterial {
-    fn vertex_shader() -> ShaderRef {
-        shader(embedded_path!("water.wgsl"))
-    }
-
-    fn fragment_shader() -> ShaderRef {
-        shader(embedded_path!("water.wgsl"))
-    }
-
-    fn alpha_mode(&self) -> AlphaMode {
-        AlphaMode::Blend
-    }
-
-    fn enable_prepass() -> bool {
-        false
-    }
-
-    fn enable_shadows() -> bool {
-        false
-    }
-
-    fn specialize(
-        _pipeline: &MaterialPipeline,
-        descriptor: &mut RenderPipelineDescriptor,
-        layout: &MeshVertexBufferLayoutRef,
-        key: MaterialPipelineKey<Self>,
-    ) -> Result<(), SpecializedMeshPipelineError> {
-        specialize(descriptor, layout, key.bind_group_data)
-    }
-}
-
-/// Registers the materials and their shaders.
+/// Registers the material and its shaders.
 pub(super) fn plugin(app: &mut App) {
     load_shader_library!(app, "tour.wgsl");
     load_shader_library!(app, "vertex.wgsl");
     load_shader_library!(app, "finish.wgsl");
-    embedded_asset!(app, "surface.wgsl");
-    embedded_asset!(app, "water.wgsl");
-    app.add_plugins((
-        MaterialPlugin::<TourSurfaceMaterial>::default(),
-        MaterialPlugin::<TourWaterMaterial>::default(),
-    ));
+    load_shader_library!(app, "water.wgsl");
+    embedded_asset!(app, "part.wgsl");
+    app.add_plugins(MaterialPlugin::<TourMaterial>::default());
 }
 
 #[cfg(test)]

@@ -2,34 +2,24 @@
 //
 // Twin of `trace/mod.rs` (`mirrored`, `mirror_hit`), held to it by tests/integration/gpu_matches_trace.rs.
 
+#define_import_path bevy_picture_tour::water
+
 #import bevy_picture_tour::tour::{
     Component, Ray, TourUniform, component, contains, fragment_ray, meet_plane, mirror, see, see_far, snap,
     INFINITE,
 }
-#import bevy_picture_tour::vertex::{TourVertex, Vertex, place}
-#import bevy_picture_tour::finish::finish
 
 // Less light than this is left behind a layer: half a display code cannot change any more.
 const OPAQUE: f32 = 1.0 / 512.0;
 // A mirrored ray climbs at least this steeply.
 const LEAST_CLIMB: f32 = 1e-5;
 
-@group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> tour: TourUniform;
-@group(#{MATERIAL_BIND_GROUP}) @binding(1) var records: texture_2d<f32>;
-@group(#{MATERIAL_BIND_GROUP}) @binding(2) var atlas: texture_2d<f32>;
-@group(#{MATERIAL_BIND_GROUP}) @binding(3) var atlas_sampler: sampler;
-
-@vertex
-fn vertex(vertex: Vertex) -> TourVertex {
-    return place(vertex, tour, records);
-}
-
 // A reflection map at a picture point; its border is prolonged.
-fn sample_map(found: Component, at: vec2<f32>) -> vec4<f32> {
+fn sample_map(maps: texture_2d<f32>, filtering: sampler, found: Component, at: vec2<f32>) -> vec4<f32> {
     // Half a texel inside, or the maps beside it in the atlas would bleed in.
     let last = round(found.layer.zw * found.atlas.z) - 0.5;
     let texel = found.atlas.xy + clamp((snap(at) - found.layer.xy) * found.atlas.z, vec2(0.5), last);
-    return textureSampleLevel(atlas, atlas_sampler, texel / vec2<f32>(textureDimensions(atlas)), 0.0);
+    return textureSampleLevel(maps, filtering, texel / vec2<f32>(textureDimensions(maps)), 0.0);
 }
 
 struct Hit {
@@ -38,13 +28,13 @@ struct Hit {
 }
 
 // Where a mirrored ray meets a component above the water; a negative distance for a miss.
-fn mirror_hit(found: Component, up: Ray) -> Hit {
+fn mirror_hit(tour: TourUniform, maps: texture_2d<f32>, filtering: sampler, found: Component, up: Ray) -> Hit {
     let distance = meet_plane(found, up);
     let point = up.origin + distance * up.direction;
     if found.atlas.w < 0.5 || !(distance > 0.0) || !(distance < 1e9) || point.y < 0.0 || !contains(found, point) {
         return Hit(-1.0, vec4(0.0));
     }
-    return Hit(distance, sample_map(found, see(tour, mirror(point))));
+    return Hit(distance, sample_map(maps, filtering, found, see(tour, mirror(point))));
 }
 
 struct Light {
@@ -58,13 +48,15 @@ fn behind(light: Light, texel: vec4<f32>) -> Light {
     return Light(light.color + weight * texel.rgb, light.left - weight);
 }
 
-@fragment
-fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
-    if tour.flags.y >= 0.0 {
-        // The depth pass: water is opaque, its color does not matter.
-        return vec4(1.0);
-    }
-    let ray = fragment_ray(records, in.row, in.position.xy);
+// What the water shows along a ray that goes down to it.
+fn mirrored(
+    tour: TourUniform,
+    records: texture_2d<f32>,
+    maps: texture_2d<f32>,
+    filtering: sampler,
+    row: i32,
+    ray: Ray,
+) -> vec3<f32> {
     let water = ray.origin - ray.origin.y / ray.direction.y * ray.direction;
     let up = Ray(
         vec3(water.x, 0.0, water.z),
@@ -72,15 +64,15 @@ fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
     );
 
     var light = Light(vec3(0.0), 1.0);
-    let count = i32(textureLoad(records, vec2(5, in.row), 0).w);
-    let ground_index = i32(textureLoad(records, vec2(6, in.row), 0).w);
+    let count = i32(textureLoad(records, vec2(5, row), 0).w);
+    let ground_index = i32(textureLoad(records, vec2(6, row), 0).w);
     var ground = Hit(-1.0, vec4(0.0));
     if ground_index >= 0 {
-        ground = mirror_hit(component(records, ground_index), up);
+        ground = mirror_hit(tour, maps, filtering, component(records, ground_index), up);
     }
     for (var i = 0; i < count; i++) {
-        let index = i32(textureLoad(records, vec2(8 + i / 4, in.row), 0)[i % 4]);
-        let hit = mirror_hit(component(records, index), up);
+        let index = i32(textureLoad(records, vec2(8 + i / 4, row), 0)[i % 4]);
+        let hit = mirror_hit(tour, maps, filtering, component(records, index), up);
         if hit.distance < 0.0 {
             continue;
         }
@@ -90,7 +82,7 @@ fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
         }
         light = behind(light, hit.texel);
         if light.left < OPAQUE {
-            return finish(vec4(light.color, 1.0));
+            return light.color;
         }
     }
     if ground.distance >= 0.0 {
@@ -104,6 +96,6 @@ fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
             at = see(tour, mirror(up.origin + distance * up.direction));
         }
     }
-    light = behind(light, vec4(sample_map(last, at).rgb, 1.0));
-    return finish(vec4(light.color, 1.0));
+    light = behind(light, vec4(sample_map(maps, filtering, last, at).rgb, 1.0));
+    return light.color;
 }

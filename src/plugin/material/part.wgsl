@@ -1,13 +1,17 @@
-// A component seen directly: its texture map read through the picture's own camera.
+// A tour's part: a component's texture map read through the picture's own camera, or the water.
 
 #import bevy_picture_tour::tour::{TourUniform, component, fragment_ray, meet_plane, see, see_far, snap, INFINITE}
 #import bevy_picture_tour::vertex::{TourVertex, Vertex, place}
 #import bevy_picture_tour::finish::finish
+#ifdef TOUR_WATER
+#import bevy_picture_tour::water::mirrored
+#endif
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> tour: TourUniform;
 @group(#{MATERIAL_BIND_GROUP}) @binding(1) var records: texture_2d<f32>;
-@group(#{MATERIAL_BIND_GROUP}) @binding(2) var texture_map: texture_2d<f32>;
-@group(#{MATERIAL_BIND_GROUP}) @binding(3) var texture_sampler: sampler;
+// The component's texture map, or all reflection maps in one.
+@group(#{MATERIAL_BIND_GROUP}) @binding(2) var map: texture_2d<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(3) var map_sampler: sampler;
 
 @vertex
 fn vertex(vertex: Vertex) -> TourVertex {
@@ -16,6 +20,14 @@ fn vertex(vertex: Vertex) -> TourVertex {
 
 @fragment
 fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
+#ifdef TOUR_WATER
+    if tour.flags.y >= 0.0 {
+        // The depth pass: water is opaque, its color does not matter.
+        return vec4(1.0);
+    }
+    let ray = fragment_ray(records, in.row, in.position.xy);
+    return finish(vec4(mirrored(tour, records, map, map_sampler, in.row, ray), 1.0));
+#else
     let ray = fragment_ray(records, in.row, in.position.xy);
     let found = component(records, i32(tour.eye.w));
     var at = see_far(tour, ray.direction);
@@ -23,9 +35,10 @@ fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
         at = see(tour, ray.origin + meet_plane(found, ray) * ray.direction);
     }
     let uv = (snap(at) - tour.layer.xy) / tour.layer.zw;
-    let color = textureSampleLevel(texture_map, texture_sampler, uv, 0.0);
+    let color = textureSampleLevel(map, map_sampler, uv, 0.0);
     if color.a <= tour.flags.y {
         discard;
     }
     return finish(color);
+#endif
 }
