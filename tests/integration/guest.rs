@@ -1,10 +1,11 @@
 //! A tour is a good guest: it leaves the game's cameras and meshes alone and is drawn rightly among them.
 
-use bevy::camera::{Hdr, RenderTarget};
+use bevy::camera::{Hdr, RenderTarget, Viewport};
 use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::prelude::*;
 use bevy_picture_tour::camera::PinholeCamera;
 use bevy_picture_tour::picture::Picture;
+use bevy_picture_tour::plugin::{ColorPolicy, TourCamera};
 use bevy_picture_tour::trace::compare::Comparison;
 use glam::DVec3;
 
@@ -133,4 +134,55 @@ fn hdr_and_msaa_cameras_show_the_picture_s_codes() {
             100.0 * found.share_within(1)
         );
     }
+}
+
+#[test]
+fn a_graded_tour_follows_the_camera_s_tonemapping_and_an_exact_one_does_not() {
+    let Some(_gpu) = adapter() else { return };
+    let source = made_scene::source();
+    let mut stage = Stage::new();
+    let root = stage.tour(source.clone(), Transform::default());
+    let target = stage.camera(root, made_scene::SIZE, (Msaa::Off, Tonemapping::Reinhard));
+    let brightness = |shot: &Picture| {
+        let sum: u64 = shot.pixels().iter().flatten().map(|code| u64::from(*code)).sum();
+        sum as f64 / (3 * shot.pixels().len()) as f64
+    };
+
+    let exact = stage.shot(&target, made_scene::SIZE);
+    stage.app.world_mut().entity_mut(root).insert(ColorPolicy::Graded);
+    let graded = stage.shot(&target, made_scene::SIZE);
+    stage.app.world_mut().entity_mut(root).insert(ColorPolicy::Exact);
+    let again = stage.shot(&target, made_scene::SIZE);
+
+    for (name, shot) in [("at first", &exact), ("after grading", &again)] {
+        let found = Comparison::of(shot, &source.picture).unwrap();
+        assert!(found.max_code_difference <= 1, "{name}: {} codes off", found.max_code_difference);
+    }
+    // Reinhard's curve darkens whatever is not black.
+    let (plain, toned) = (brightness(&exact), brightness(&graded));
+    assert!(toned < 0.95 * plain, "mean code {toned:.1} graded, {plain:.1} exact");
+}
+
+#[test]
+fn a_contained_picture_keeps_its_shape_and_a_game_s_viewport_stays() {
+    let Some(_gpu) = adapter() else { return };
+    let mut stage = Stage::new();
+    let root = stage.tour(made_scene::source(), Transform::default());
+    let tall = UVec2::new(made_scene::SIZE.x, 2 * made_scene::SIZE.y);
+    let target = stage.target(tall);
+    let own =
+        Viewport { physical_position: UVec2::new(3, 5), physical_size: UVec2::new(99, 77), ..default() };
+    let looks = || TourCamera { tour: Some(root), listens: false, ..default() };
+    let given = Camera { viewport: Some(own.clone()), order: 1, ..default() };
+    let split = stage.app.world_mut().spawn((looks(), given, RenderTarget::from(target.clone()))).id();
+    let free = stage.app.world_mut().spawn((looks(), RenderTarget::from(target.clone()), Msaa::Off)).id();
+    stage.settle();
+
+    let viewport = |entity: Entity| {
+        let camera = stage.app.world().get::<Camera>(entity).expect("a camera");
+        camera.viewport.as_ref().map(|view| (view.physical_position, view.physical_size))
+    };
+    assert_eq!(viewport(split), Some((own.physical_position, own.physical_size)), "the game's viewport");
+    let bars = UVec2::new(0, made_scene::SIZE.y / 2);
+    assert_eq!(viewport(free), Some((bars, made_scene::SIZE)), "the letterbox");
 }
