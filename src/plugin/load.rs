@@ -4,6 +4,7 @@
 //! good tour stays.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use bevy::asset::{AssetEvent, AssetLoadFailedEvent};
 use bevy::camera::visibility::RenderLayers;
@@ -46,9 +47,18 @@ pub struct TourFailed {
 #[derive(Component)]
 struct BuiltFrom(AssetId<TourAsset>);
 
-/// A tour being built.
+/// A tour being built; dropped (replaced, or despawned with the tour), it stops the work at its next step.
 #[derive(Component)]
-struct Building(Task<Result<AssembledTour, AssembleError>>);
+struct Building {
+    task: Task<Result<AssembledTour, AssembleError>>,
+    wanted: Arc<AtomicBool>,
+}
+
+impl Drop for Building {
+    fn drop(&mut self) {
+        self.wanted.store(false, Ordering::Relaxed);
+    }
+}
 
 pub(super) fn plugin(app: &mut App) {
     app.init_asset::<TourAsset>().init_asset_loader::<TourLoader>();
@@ -103,8 +113,11 @@ fn start_building(
         let is_new = built.is_none_or(|built| built.0 != id) || changed.contains(&id);
         let Some(TourAsset(source)) = sources.get(id).filter(|_| is_new) else { continue };
         let source = Arc::clone(source);
-        let task = AsyncComputeTaskPool::get().spawn(async move { assemble(&source, &|_, _| true) });
-        commands.entity(entity).try_insert((Building(task), BuiltFrom(id)));
+        let wanted = Arc::new(AtomicBool::new(true));
+        let goes_on = Arc::clone(&wanted);
+        let task = AsyncComputeTaskPool::get()
+            .spawn(async move { assemble(&source, &|_, _| goes_on.load(Ordering::Relaxed)) });
+        commands.entity(entity).try_insert((Building { task, wanted }, BuiltFrom(id)));
     }
 }
 
@@ -115,8 +128,8 @@ fn finish_building(
     sources: Res<Assets<TourAsset>>,
     mut assets: TourAssets,
 ) {
-    for (entity, mut task) in &mut building {
-        let Some(built) = check_ready(&mut task.0) else { continue };
+    for (entity, mut building) in &mut building {
+        let Some(built) = check_ready(&mut building.task) else { continue };
         commands.entity(entity).try_remove::<Building>();
         if let Ok(root) = tours.get(entity)
             && let Some(TourAsset(source)) = sources.get(&root.1.0)
