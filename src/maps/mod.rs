@@ -41,7 +41,7 @@ pub struct ComponentMaps {
     pub mean_lift: f32,
 }
 
-/// Shares of a reflection map by origin, 0–1; they sum to 1, or to 0 for an empty map.
+/// Shares of a reflection map's part inside the picture by origin, 0–1; they sum to 1, or to 0 for an empty map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct OriginShares {
     /// The picture's water shows it.
@@ -119,7 +119,7 @@ impl Maps {
             .zip(origins)
             .enumerate()
             .map(|(index, ((texture, reflection), origin))| ComponentMaps {
-                shares: shares(reflection.as_ref(), &origin),
+                shares: shares(reflection.as_ref(), &origin, picture),
                 mean_lift: texture::mean_lift(&texture, &coverage.alpha[index]),
                 texture,
                 reflection,
@@ -130,11 +130,14 @@ impl Maps {
     }
 }
 
-fn shares(layer: Option<&Layer>, origins: &[Origin]) -> OriginShares {
+fn shares(layer: Option<&Layer>, origins: &[Origin], picture: &Picture) -> OriginShares {
     let Some(layer) = layer else { return OriginShares::default() };
     let mut counts = [0.0_f32; 3];
-    for (texel, origin) in layer.cells.iter().zip(origins) {
-        if texel[3] >= 128 {
+    let size = picture.size().as_ivec2();
+    for (cell, (texel, origin)) in layer.cells.iter().zip(origins).enumerate() {
+        let pixel = layer.pixel(cell);
+        let inside = pixel.cmpge(glam::IVec2::ZERO).all() && pixel.cmplt(size).all();
+        if inside && texel[3] >= 128 {
             counts[*origin as usize] += 1.0;
         }
     }
