@@ -126,66 +126,6 @@ impl Mask {
         bounds
     }
 
-    /// What this mask leaves free.
-    #[must_use]
-    pub fn inverted(&self) -> Self {
-        Self { size: self.size, coverage: self.coverage.iter().map(|value| 255 - value).collect() }
-    }
-
-    /// Whatever either mask covers: the larger coverage.
-    ///
-    /// # Panics
-    ///
-    /// When the sizes differ.
-    #[must_use]
-    pub fn union(&self, other: &Self) -> Self {
-        self.combined(other, u8::max)
-    }
-
-    /// What of this mask another one in front of it leaves: coverage times the other's free part.
-    ///
-    /// # Panics
-    ///
-    /// When the sizes differ.
-    #[must_use]
-    pub fn minus(&self, other: &Self) -> Self {
-        self.combined(other, |ours, others| ((u32::from(ours) * u32::from(255 - others) + 127) / 255) as u8)
-    }
-
-    fn combined(&self, other: &Self, combine: impl Fn(u8, u8) -> u8) -> Self {
-        assert_eq!(self.size, other.size, "masks of two sizes cannot be combined");
-        let pairs = self.coverage.iter().zip(&other.coverage);
-        Self { size: self.size, coverage: pairs.map(|(ours, others)| combine(*ours, *others)).collect() }
-    }
-
-    /// Grows by `radius` pixels: each pixel takes the largest coverage whose center lies within that distance.
-    ///
-    /// Takes time in proportion to the square of the radius.
-    #[must_use]
-    pub fn grown(&self, radius: f32) -> Self {
-        let (width, height) = (self.size.x as usize, self.size.y as usize);
-        let reach = (radius.max(0.0) as usize).min(width.max(height));
-        let mut coverage = self.coverage.clone();
-        coverage.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
-            for from in y.saturating_sub(reach)..(y + reach + 1).min(height) {
-                let rise = from.abs_diff(y) as f32;
-                let run = ((radius * radius - rise * rise).max(0.0).sqrt() as usize).min(width - 1);
-                let row = &self.coverage[from * width..][..width];
-                for shift in 0..=run {
-                    take_larger(&mut out[shift..], row);
-                    take_larger(out, &row[shift..]);
-                }
-            }
-        });
-        Self { size: self.size, coverage }
-    }
-
-    /// Shrinks by `radius` pixels. The picture's frame does not eat into the mask.
-    #[must_use]
-    pub fn shrunk(&self, radius: f32) -> Self {
-        self.inverted().grown(radius).inverted()
-    }
-
     /// The same mask at another size, both sides stretched to fit; linear, and averaged where it becomes smaller.
     ///
     /// # Panics
@@ -200,13 +140,6 @@ impl Mask {
         let image = GrayImage::from_fn(self.size.x, self.size.y, |x, y| Luma([self.get(x, y)]));
         let coverage = resize(&image, size.x, size.y, FilterType::Triangle).into_raw();
         Self { size, coverage }
-    }
-}
-
-/// Takes from `others` whatever is larger, value by value, as far as both go.
-fn take_larger(ours: &mut [u8], others: &[u8]) {
-    for (ours, other) in ours.iter_mut().zip(others) {
-        *ours = (*ours).max(*other);
     }
 }
 

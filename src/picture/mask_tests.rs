@@ -92,31 +92,6 @@ fn bounds_hold_all_coverage() {
 }
 
 #[test]
-fn a_dot_grows_to_a_disc_and_shrinks_back() {
-    let dot = mask_of(21, 15, |x, y| (x, y) == (10, 7));
-    let disc = mask_of(21, 15, |x, y| x.abs_diff(10).pow(2) + y.abs_diff(7).pow(2) <= 16);
-    assert_eq!(dot.grown(4.0), disc);
-    assert_eq!(disc.shrunk(4.0), dot);
-    assert_eq!(dot.grown(0.0), dot);
-    assert_eq!(dot.grown(1000.0), mask_of(21, 15, |_, _| true));
-}
-
-#[test]
-fn the_frame_does_not_eat_into_a_mask() {
-    let left = mask_of(10, 6, |x, _| x < 5);
-    assert_eq!(left.shrunk(2.0), mask_of(10, 6, |x, _| x < 3));
-}
-
-#[test]
-fn masks_combine() {
-    let mask = |values: [u8; 3]| Mask::new(UVec2::new(3, 1), values.to_vec()).unwrap();
-    let (a, b) = (mask([255, 200, 100]), mask([0, 255, 51]));
-    assert_eq!(a.union(&b).values(), [255, 255, 100]);
-    assert_eq!(a.minus(&b).values(), [255, 0, 80]);
-    assert_eq!(a.inverted().values(), [0, 55, 155]);
-}
-
-#[test]
 fn resizing_keeps_the_covered_share() {
     let disc = mask_of(60, 40, |x, y| x.abs_diff(30).pow(2) + y.abs_diff(20).pow(2) < 225);
     for size in [UVec2::new(30, 20), UVec2::new(120, 80)] {

@@ -32,9 +32,9 @@ pub enum PictureTourSystems {
     /// Takes over finished tours; reads keys, pointer, touch and gamepad into what each camera wishes. Set
     /// [`TourCamera::listens`] before it.
     Input,
-    /// Moves wind, water and floating bodies on by whole steps.
+    /// For what a game simulates; the plugin's own steps of water and wind will run here.
     Simulate,
-    /// Moves cameras and bodies. Change a [`TourCameraState`]'s pose after it to have the last word.
+    /// Moves cameras. Change a [`TourCameraState`]'s pose after it to have the last word.
     Move,
     /// Writes transforms from poses; materials follow after Bevy has propagated transforms.
     Upload,
