@@ -115,13 +115,21 @@ impl World {
             }
             tour.water = Some(WaterArea { region, pairs });
         }
-        if let Some(region) = region(&scene["regions"]["ground"]) {
+        // What stands on a ground that the picture does not show stands on it all the same: its region lies outside.
+        let unseen = || {
+            let corners = [(-9.0, -9.0), (-5.0, -9.0), (-5.0, -5.0)].map(|(x, y)| PicturePoint::new(x, y));
+            let needed = list(&scene["objects"]).iter().any(|object| object["support"] == "ground");
+            needed.then(|| Region::Polygon(corners.into()))
+        };
+        if let Some(region) = region(&scene["regions"]["ground"]).or_else(unseen) {
             let above = scene["height_above_ground"].as_f64().unwrap_or(self.height);
             tour.ground = Some(GroundArea { region, height_above_water: (self.height - above).max(0.0) });
         }
         let no_pair_behind = !list(&scene["pairs"]).iter().any(|pair| pair["on"].is_null());
         if banded || no_pair_behind {
-            let mut shore = list(&scene["waterline"]).iter().map(point).collect::<Result<Vec<_>, _>>()?;
+            let foot = list(&scene["background"]["foot_image_line"]);
+            let line = if foot.len() >= 2 { foot } else { list(&scene["waterline"]) };
+            let mut shore = line.iter().map(point).collect::<Result<Vec<_>, _>>()?;
             if let Some([a, b]) = tour.camera.horizon {
                 // What reaches up to the horizon tells no distance.
                 let rise = (b.y() - a.y()) / (b.x() - a.x());
