@@ -20,9 +20,9 @@ fn main() {
     let source = open();
     let scene = assemble(&source, &|_, _| true).unwrap().scene;
     let masks = TourMasks {
-        water: source.water.clone(),
-        ground: source.ground.clone(),
-        billboards: source.objects.clone(),
+        water: source.water.as_ref(),
+        ground: source.ground.as_ref(),
+        billboards: &source.objects,
     };
     let png = std::fs::read(folder.join("lake.png")).unwrap();
 

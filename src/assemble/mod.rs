@@ -59,9 +59,9 @@ pub fn assemble(
     let (scene, mut remarks) = crate::scene::build(&plan);
     remarks.extend(source.notes.iter().cloned());
     let masks = TourMasks {
-        water: source.water.clone(),
-        ground: source.ground.clone(),
-        billboards: source.objects.clone(),
+        water: source.water.as_ref(),
+        ground: source.ground.as_ref(),
+        billboards: &source.objects,
     };
     let maps = Maps::build(&scene, &source.picture, &masks, &|share, step| progress(0.1 + 0.9 * share, step))
         .ok_or(AssembleError::Cancelled)?;

@@ -137,8 +137,17 @@ impl TourSource {
         if !problems.is_empty() {
             return Err(Problems(problems));
         }
+        let outside = || {
+            Problem::new(
+                "picture.crop",
+                format!("{crop:?}"),
+                "it lies outside the picture",
+                "write one inside",
+            )
+        };
+        let picture = decoded.picture.crop(rect).ok_or_else(outside)?;
         Ok(Self {
-            picture: decoded.picture.crop(rect).unwrap_or(decoded.picture),
+            picture,
             tour: used,
             uncropped_size: size,
             lens: decoded.lens,

@@ -16,14 +16,14 @@ use crate::scene::TourScene;
 use crate::scene::margin_px;
 
 /// The masks of a tour, all of the picture's size.
-#[derive(Clone, Debug)]
-pub struct TourMasks {
+#[derive(Clone, Copy, Debug)]
+pub struct TourMasks<'a> {
     /// Visible water; without it all that is left below the background's contact line is water.
-    pub water: Option<Mask>,
+    pub water: Option<&'a Mask>,
     /// Visible ground.
-    pub ground: Option<Mask>,
+    pub ground: Option<&'a Mask>,
     /// Visible coverage of each billboard, in the scene's order.
-    pub billboards: Vec<Mask>,
+    pub billboards: &'a [Mask],
 }
 
 /// Who covers what.
@@ -99,9 +99,7 @@ impl Coverage {
         });
         Self { alpha, grown, above, water, pure }
     }
-}
 
-impl Coverage {
     /// Gives a pixel to a billboard, if its layer reaches there.
     pub(super) fn give(&mut self, index: usize, pixel: IVec2) {
         let (Some(alpha), Some(grown)) = (self.alpha[index].index(pixel), self.grown[index].index(pixel))
@@ -149,13 +147,13 @@ fn framework_alpha(
         .enumerate()
         .map(|(index, &hidden_by)| {
             let pixel = hidden.pixel(index).as_uvec2();
-            let coverage = |mask: &Option<Mask>| {
-                mask.as_ref().map_or(0.0, |mask| f32::from(dusted(mask.get(pixel.x, pixel.y))) / 255.0)
+            let coverage = |mask: Option<&Mask>| {
+                mask.map_or(0.0, |mask| f32::from(dusted(mask.get(pixel.x, pixel.y))) / 255.0)
             };
             let seen = 1.0 - f32::from(hidden_by) / 255.0;
-            let ground = coverage(&masks.ground).min(seen);
-            let rest = match &masks.water {
-                Some(_) => (seen - coverage(&masks.water) - ground).max(0.0),
+            let ground = coverage(masks.ground).min(seen);
+            let rest = match masks.water {
+                Some(_) => (seen - coverage(masks.water) - ground).max(0.0),
                 None => 0.0,
             };
             let shares = if seen > 0.0 { [rest / seen, ground / seen] } else { [0.0; 2] };

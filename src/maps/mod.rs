@@ -28,6 +28,9 @@ use zones::Zone;
 use crate::picture::Picture;
 use crate::scene::TourScene;
 
+/// A mean lift above this promises a halo: the fill behind does not match (notes §3.4).
+pub const HALO_LIFT: f32 = 0.15;
+
 /// The maps of one component.
 #[derive(Clone, Debug)]
 pub struct ComponentMaps {
@@ -37,7 +40,7 @@ pub struct ComponentMaps {
     pub reflection: Option<Layer>,
     /// Where the reflection map's texels came from.
     pub shares: OriginShares,
-    /// How much coverage the alpha lift added, mean 0–1; above 0.15 a halo will show when the camera moves.
+    /// How much coverage the alpha lift added, mean 0–1; above [`HALO_LIFT`] a halo will show when the camera moves.
     pub mean_lift: f32,
 }
 

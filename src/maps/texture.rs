@@ -175,8 +175,7 @@ fn draw_order(scene: &TourScene) -> Vec<usize> {
     order
 }
 
-/// How much of a layer's coverage the lift added, mean over the texels it shows: above 0.15 a halo will show when the
-/// camera moves.
+/// How much of a layer's coverage the lift added, mean over the texels it shows.
 pub(super) fn mean_lift(layer: &Layer, before: &Grid<u8>) -> f32 {
     let (mut sum, mut count) = (0.0, 0);
     for (cell, texel) in layer.cells.iter().enumerate() {

@@ -12,7 +12,7 @@ use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
 use super::atlas::{self, Place};
 use super::material::{ColorPolicy, TourMaterial, TourUniform};
-use super::records::Records;
+use super::records::{Records, ViewRecord};
 use crate::assemble::AssembledTour;
 use crate::maps::Layer;
 use crate::scene::Surface;
@@ -37,6 +37,8 @@ pub(super) struct DepthPass;
 /// What the plugin keeps for a tour that is shown.
 #[derive(Component, Debug)]
 pub(super) struct ShownTour {
+    /// What the records' view rows say.
+    pub views: Vec<ViewRecord>,
     pub records: Records,
     pub image: Handle<Image>,
     /// Children, for a clean replacement.
@@ -54,9 +56,6 @@ pub(super) struct TourAssets<'w> {
 
 /// What every device that Bevy runs on can hold.
 const SMALLEST_LIMIT: u32 = 2048;
-
-/// The water reaches this far, in background distances, as the background's own wall does.
-const REACH: f32 = 60.0;
 
 /// Replaces what is shown of a tour.
 pub(super) fn show(
@@ -129,7 +128,7 @@ pub(super) fn show(
             water: true,
         };
         let reach = match scene.background().surface {
-            Surface::Wall(wall) => REACH * wall.foot.length() as f32,
+            Surface::Wall(wall) => wall.span[1] as f32,
             _ => 1e4,
         };
         let mesh = assets.meshes.add(quad([
@@ -152,7 +151,9 @@ pub(super) fn show(
             }
         }
     });
-    commands.entity(root).try_insert((SolvedTour(tour), ShownTour { records, image, parts }));
+    commands
+        .entity(root)
+        .try_insert((SolvedTour(tour), ShownTour { views: Vec::new(), records, image, parts }));
 }
 
 struct Spawner<'a, 'w, 's> {

@@ -32,15 +32,15 @@ pub(super) fn look_at_tours(
     mut images: ResMut<Assets<Image>>,
     mut order: ResMut<DrawOrder>,
 ) {
+    // The layer of whatever has no layers of its own.
+    let everything_else = RenderLayers::default();
     let mut new_order: HashMap<Entity, HashMap<Entity, f32>> = HashMap::default();
     for (root, tour_transform, solved, mut shown, layers) in &mut tours {
         let layers = layers.cloned().unwrap_or_default();
         let tour_from_world = affine(tour_transform).inverse();
         let mut views = Vec::new();
         for (camera, settings, transform, state, seen) in &cameras {
-            let sees = seen.is_none_or(|seen| seen.intersects(&layers))
-                && (seen.is_some() || layers.intersects(&RenderLayers::default()));
-            if !settings.is_active || !sees {
+            if !settings.is_active || !seen.unwrap_or(&everything_else).intersects(&layers) {
                 continue;
             }
             if views.len() == MAX_VIEWS {
@@ -78,13 +78,12 @@ pub(super) fn look_at_tours(
             });
         }
         let shown = shown.bypass_change_detection();
-        let mut records = shown.records.clone();
-        records.set_views(&views);
-        if records != shown.records {
+        if views != shown.views {
+            shown.records.set_views(&views);
             if let Some(mut image) = images.get_mut(&shown.image) {
-                image.data = Some(records.bytes());
+                image.data = Some(shown.records.bytes());
             }
-            shown.records = records;
+            shown.views = views;
         }
     }
     order.0 = new_order;

@@ -48,8 +48,6 @@ impl Annotations {
     pub const HORIZON_DEVIATION_PX: f64 = 2.0;
     /// Standard deviation of the principal point of an uncropped picture, as part of its width.
     pub const PRINCIPAL_DEVIATION: f64 = 0.006;
-    /// The same when the picture was cropped and nobody knows how.
-    pub const PRINCIPAL_DEVIATION_CROPPED: f64 = 0.15;
 }
 
 /// What is known of the focal length.

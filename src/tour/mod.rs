@@ -22,7 +22,7 @@ pub use annotation::{
 };
 pub use file::{ASSUMED_HEIGHT, Document, TourFile, VERSION};
 pub use journey::{CameraPath, Keyframe};
-pub use object::{Course, Floating, Motion, Object, Recorded, Support, Sway, SwayKind, WaterPoint};
+pub use object::{Course, Floating, Motion, Object, Recorded, Support, Sway, SwayKind, Waypoint};
 pub use problem::{Place, Problem, Problems};
 pub use relative_path::{RelativePath, UnsafePath};
 pub use weather::{Jonswap, Octaves, RecordedSea, Sea, Waves, Wind};

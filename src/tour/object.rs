@@ -136,7 +136,7 @@ pub struct Floating {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Course {
     /// At least two points, in the order of travel.
-    pub waypoints: Vec<WaterPoint>,
+    pub waypoints: Vec<Waypoint>,
     /// Meters per second, above 0, at most 30.
     pub speed: f64,
     /// How deep the body sits in the water, 0.01 to 20 meters.
@@ -152,7 +152,7 @@ pub struct Course {
 /// A point of the resting water, in meters: x to the right, z towards the viewer (the scene lies at negative z).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct WaterPoint(pub DVec2);
+pub struct Waypoint(pub DVec2);
 
 /// Poses made by another simulator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

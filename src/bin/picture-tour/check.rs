@@ -5,6 +5,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
+use bevy_picture_tour::maps::HALO_LIFT;
 use bevy_picture_tour::solve::Label;
 
 use crate::failure::Failure;
@@ -15,9 +16,6 @@ use crate::report::Findings;
 use crate::report::Parameter;
 use crate::report::Report;
 use crate::table::Table;
-
-/// Mean lift above which a component gets a halo when the camera moves (see the library's `ComponentMaps`).
-const HALO_LIFT: f32 = 0.15;
 
 /// Checks a tour, or the demo.
 pub(crate) fn run(tour: Option<&Path>, json: bool) -> Result<ExitCode, Failure> {

@@ -138,13 +138,13 @@ pub(super) fn read_devices(
 
 /// Moves the cameras and lends them the picture's projection.
 pub(super) fn move_cameras(
-    mut cameras: Query<(Entity, &TourCamera, &mut TourCameraState, &mut Projection, &mut Camera)>,
+    mut cameras: Query<(&TourCamera, &mut TourCameraState, &mut Projection, &mut Camera)>,
     tours: Query<(Entity, Ref<SolvedTour>)>,
     paths: Query<&TourPath>,
     time: Res<Time>,
 ) {
     let seconds = time.delta_secs_f64();
-    for (_, camera, mut state, mut projection, mut settings) in &mut cameras {
+    for (camera, mut state, mut projection, mut settings) in &mut cameras {
         let found = match camera.tour {
             Some(tour) => tours.get(tour).ok(),
             None => state.tour.and_then(|tour| tours.get(tour).ok()).or_else(|| tours.iter().next()),
