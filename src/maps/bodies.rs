@@ -76,6 +76,28 @@ pub(super) fn take_in_bodies(
     seen_owner(scene, coverage, zones)
 }
 
+/// Pixels of the picture that lie within a rectangle's margin of a billboard or of its mirror image.
+pub(super) fn by_body(scene: &TourScene, coverage: &Coverage, zones: &[Option<Zone>]) -> Grid<bool> {
+    let size = scene.camera.intrinsics.size;
+    let margin = margin_px(size);
+    let mut by_body = Grid::filled(IVec2::ZERO, size, false);
+    for (index, component) in scene.components.iter().enumerate() {
+        if component.role != Role::Billboard {
+            continue;
+        }
+        let mirrored = zones[index].as_ref().map(|zone| &zone.coverage);
+        for covered in std::iter::once(&coverage.alpha[index]).chain(mirrored) {
+            let near = grow(covered, margin, size);
+            for (cell, _) in near.cells.iter().enumerate().filter(|(_, covered)| **covered > 0) {
+                if let Some(cell) = by_body.index(near.pixel(cell)) {
+                    by_body.cells[cell] = true;
+                }
+            }
+        }
+    }
+    by_body
+}
+
 /// The covered cells that have an uncovered one beside them.
 fn rim(grid: &Grid<u8>) -> Vec<IVec2> {
     let covered = |pixel: IVec2| grid.get(pixel).unwrap_or(0) > 0;

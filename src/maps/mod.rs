@@ -88,6 +88,7 @@ impl Maps {
         let direct: Vec<_> = (0..count)
             .map(|index| texture::filled_colors(scene, picture, &coverage, &tint, &owner, index))
             .collect();
+        let by_body = bodies::by_body(scene, &coverage, &zones);
         step(0.6, "reflection maps")?;
         let mut reflections = Vec::with_capacity(count);
         let mut origins = Vec::with_capacity(count);
@@ -102,6 +103,7 @@ impl Maps {
                         zones: &zones,
                         owner: &owner,
                         tint: &tint,
+                        by_body: &by_body,
                         direct: &direct[index],
                     };
                     reflection::reflection_map(&input, index)

@@ -110,13 +110,15 @@ pub(super) struct ReflectionInput<'a> {
     pub zones: &'a [Option<Zone>],
     pub owner: &'a Grid<u8>,
     pub tint: &'a Tint,
+    /// Pixels beside a billboard or its mirror image.
+    pub by_body: &'a Grid<bool>,
     /// Filled direct colors of the component, linear light.
     pub direct: &'a Grid<[f32; 3]>,
 }
 
 /// A component's reflection map before the lift, and the origin of each texel.
 pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, Vec<Origin>) {
-    let ReflectionInput { scene, picture, coverage, zones, owner, tint, direct } = input;
+    let ReflectionInput { scene, picture, coverage, zones, owner, tint, direct, .. } = input;
     let surface = &scene.components[index].surface;
     let size = picture.size();
     let (origin, extent) = match &zones[index] {
@@ -148,7 +150,7 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
         };
         (predicted, origin)
     });
-    let unseen = unseen_colors(picture, tint, &texels);
+    let unseen = unseen_colors(input, &texels);
     let layer = Layer::from_fn(origin, extent, |pixel| {
         let cell = texels.index(pixel).unwrap_or(0);
         let (_, from) = texels.cells[cell];
@@ -168,34 +170,45 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
 
 /// Colors for the texels that the water does not show, linear light: the prediction plus what it misses on the seen
 /// texels around; where it fails on those altogether (their distance is wrong, something swims there), their own colors.
-fn unseen_colors(picture: &Picture, tint: &Tint, texels: &Grid<([f32; 3], Origin)>) -> Vec<[f32; 3]> {
+fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Origin)>) -> Vec<[f32; 3]> {
+    let ReflectionInput { picture, tint, by_body, .. } = input;
     let width = texels.size.x as usize;
     let tolerance = (MISS_TOLERANCE * tint.error_codes).clamp(TOLERANCE_CODES[0], TOLERANCE_CODES[1]) as u8;
-    // Per texel what the prediction misses, and the seen color with whether the prediction agrees with it.
-    let (mut misses, mut around): (Vec<[f32; 3]>, Vec<[f32; 4]>) = texels
+    // Per texel what the prediction misses, the seen color, and whether the two agree.
+    let ((mut misses, mut around), agreeing): ((Vec<[f32; 3]>, Vec<[f32; 3]>), Vec<f32>) = texels
         .cells
         .par_iter()
         .enumerate()
         .map(|(cell, (predicted, origin))| {
             if *origin != Origin::Seen {
-                return ([0.0; 3], [0.0; 4]);
+                return (([0.0; 3], [0.0; 3]), 0.0);
             }
             let pixel = texels.pixel(cell).as_uvec2();
             let codes = picture.pixel(pixel.x, pixel.y);
             let [r, g, b] = codes.map(linear_from_srgb);
             let agrees = (0..3).all(|c| codes[c].abs_diff(srgb_from_linear(predicted[c])) < tolerance);
             let misses = [r - predicted[0], g - predicted[1], b - predicted[2]];
-            (misses, [r, g, b, f32::from(u8::from(agrees))])
+            ((misses, [r, g, b]), f32::from(u8::from(agrees)))
         })
         .unzip();
-    let seen: Vec<f32> =
+    let all: Vec<f32> =
         texels.cells.iter().map(|(_, origin)| f32::from(u8::from(*origin == Origin::Seen))).collect();
-    let agreeing: Vec<f32> = around.iter().map(|seen| seen[3]).collect();
+    // What disagrees beside a body may be a part of it that was not told from the background, and stays where it is.
+    let seen: Vec<f32> = all
+        .par_iter()
+        .enumerate()
+        .map(|(cell, &seen)| {
+            let doubtful = agreeing[cell] == 0.0 && by_body.get(texels.pixel(cell)) == Some(true);
+            if doubtful { 0.0 } else { seen }
+        })
+        .collect();
     push_pull(width, &mut misses, &agreeing);
+    let mut agreement: Vec<[f32; 1]> = agreeing.iter().map(|&agrees| [agrees]).collect();
+    push_pull(width, &mut agreement, &all);
     push_pull(width, &mut around, &seen);
     let blend = |cell: usize| -> [f32; 3] {
         let (predicted, _) = texels.cells[cell];
-        let trust = ((around[cell][3] - TRUST[0]) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
+        let trust = ((agreement[cell][0] - TRUST[0]) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
         std::array::from_fn(|c| {
             let made = (predicted[c] + misses[cell][c]).clamp(0.0, 1.0);
             trust * made + (1.0 - trust) * around[cell][c]
