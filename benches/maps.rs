@@ -9,7 +9,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use bevy_picture_tour::assemble::{TourSource, assemble};
-use bevy_picture_tour::maps::{Maps, TourMasks};
+use bevy_picture_tour::maps::Maps;
 use bevy_picture_tour::picture::decode_picture;
 use criterion::Criterion;
 
@@ -19,11 +19,7 @@ fn main() {
     let open = || TourSource::open(&file).unwrap_or_else(|problems| panic!("{problems}"));
     let source = open();
     let scene = assemble(&source, &|_, _| true).unwrap().scene;
-    let masks = TourMasks {
-        water: source.water.as_ref(),
-        ground: source.ground.as_ref(),
-        billboards: &source.objects,
-    };
+    let masks = source.masks(&scene);
     let png = std::fs::read(folder.join("lake.png")).unwrap();
 
     let mut criterion = Criterion::default().configure_from_args();

@@ -1,8 +1,8 @@
 //! Holds the whole road against a world with known answers: solves it from its annotations, renders views that the
 //! picture never saw, and prints how far they are from the truth.
 //!
-//! `cargo run --release --features app --example evaluate -- WORLD_DIR [--reference] [--known-focal] [--out DIR]
-//! [--json FILE]`
+//! `cargo run --release --features app --example evaluate -- WORLD_DIR [--reference] [--known-focal] [--bands none]
+//! [--out DIR] [--json FILE]`
 #![expect(clippy::print_stdout, reason = "a program prints")]
 
 mod world;
@@ -33,6 +33,9 @@ struct Args {
     /// Tells the solver the focal length: a level picture does not show it.
     #[arg(long)]
     known_focal: bool,
+    /// Where the background's bands come from.
+    #[arg(long, value_enum, default_value_t = Bands::File)]
+    bands: Bands,
     /// Writes the frames here.
     #[arg(long)]
     out: Option<PathBuf>,
@@ -41,12 +44,21 @@ struct Args {
     json: Option<PathBuf>,
 }
 
+/// Where the background's bands come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Bands {
+    /// What `scene.json` says.
+    File,
+    /// One plane for the whole background.
+    None,
+}
+
 type Failure = Box<dyn std::error::Error>;
 
 fn main() -> Result<(), Failure> {
     let args = Args::parse();
     let world = World::open(&args.world)?;
-    let tour = world.tour(args.known_focal)?;
+    let tour = world.tour(args.known_focal, args.bands == Bands::File)?;
     let source = Arc::new(TourSource::read(&tour, &|file| world.read(file.as_str()))?);
     let started = Instant::now();
     let built = assemble(&source, &|_, _| true)?;

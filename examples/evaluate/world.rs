@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use bevy_picture_tour::camera::CameraPose;
 use bevy_picture_tour::picture::{Mask, Picture, PicturePoint, decode_mask, decode_picture};
 use bevy_picture_tour::tour::{
-    Background, BackgroundPlace, Document, FocalLength, GroundArea, Motion, Object, ReflectionPair, Region,
-    Scale, Support, Tour, WaterArea,
+    Background, BackgroundPlace, Band, Document, FocalLength, GroundArea, Motion, Object, ReflectionPair,
+    Region, Scale, Support, Tour, WaterArea,
 };
 use glam::{DVec3, UVec2};
 use serde_json::Value;
@@ -80,8 +80,8 @@ impl World {
         }
     }
 
-    /// The tour that the annotations make.
-    pub(super) fn tour(&self, known_focal: bool) -> Result<Tour, Failure> {
+    /// The tour that the annotations make, with one background or with its bands.
+    pub(super) fn tour(&self, known_focal: bool, bands: bool) -> Result<Tour, Failure> {
         let scene = &self.scene;
         let picture = &scene["picture"];
         let mut tour = Document::new(text_of(&picture["file"])?);
@@ -136,9 +136,11 @@ impl World {
                 shore.retain(|point| point.y() > a.y() + rise * (point.x() - a.x()) + 1.0);
             }
             if shore.len() >= 2 {
-                tour.background =
-                    Background { place: Some(BackgroundPlace::Contact(shore)), bands: Vec::new() };
+                tour.background.place = Some(BackgroundPlace::Contact(shore));
             }
+        }
+        if bands {
+            self.bands(&mut tour.background)?;
         }
         for object in list(&scene["objects"]) {
             let contact = list(&object["contact"]);
@@ -153,6 +155,31 @@ impl World {
             });
         }
         Ok(Tour::check(tour)?)
+    }
+
+    /// The background's bands: those with a mask, and the nearest of the others for all that remains (mountains under
+    /// a sky that no mask tells apart).
+    fn bands(&self, background: &mut Background<String>) -> Result<(), Failure> {
+        let bands = list(&self.scene["background"]["bands"]);
+        let place = |band: &Value| {
+            band["distance"].as_f64().map_or(BackgroundPlace::Infinity, BackgroundPlace::Distance)
+        };
+        let masked = |band: &&Value| band["mask"].is_string();
+        let named = |band: &Value, region| -> Result<Band<String>, Failure> {
+            Ok(Band { name: text_of(&band["name"])?, region, place: place(band) })
+        };
+        for band in bands.iter().filter(masked) {
+            let mask = text_of(&band["mask"])?;
+            background.bands.push(named(band, Some(Region::Mask(mask)))?);
+        }
+        if background.bands.is_empty() {
+            return Ok(());
+        }
+        if let Some(rest) = bands.iter().find(|band| !masked(band)) {
+            background.bands.push(named(rest, None)?);
+        }
+        background.place = None;
+        Ok(())
     }
 }
 

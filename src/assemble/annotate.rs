@@ -84,7 +84,7 @@ fn focal(source: &TourSource) -> FocalLength {
 }
 
 /// The background's place, or its first band's.
-pub(super) fn background_place(tour: &tour::Tour) -> Option<&BackgroundPlace> {
+fn background_place(tour: &tour::Tour) -> Option<&BackgroundPlace> {
     tour.background.place.as_ref().or(tour.background.bands.first().map(|band| &band.place))
 }
 

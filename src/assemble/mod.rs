@@ -1,19 +1,20 @@
 //! From a tour with its picture to a scene with its maps: all stages in order.
 
 mod annotate;
+mod backdrops;
 mod source;
 
 pub use annotate::annotations;
 pub use source::TourSource;
 
+use crate::scene::BackdropPlan;
+
 use crate::maps::Maps;
-use crate::maps::TourMasks;
 use crate::scene::BillboardPlan;
 use crate::scene::ScenePlan;
 use crate::scene::TourScene;
 use crate::solve::Solution;
 use crate::solve::SolveError;
-use crate::tour::BackgroundPlace;
 
 /// A tour ready to be looked at.
 #[derive(Clone, Debug)]
@@ -55,29 +56,28 @@ pub fn assemble(
         return Err(AssembleError::Cancelled);
     }
     let solution = crate::solve::solve(&annotations(source))?;
-    let plan = plan(source, &solution);
-    let (scene, mut remarks) = crate::scene::build(&plan);
+    let mut remarks = Vec::new();
+    let backdrops = backdrops::backdrops(source, &solution.parameters, &mut remarks);
+    let plan = plan(source, &solution, backdrops);
+    let (scene, more) = crate::scene::build(&plan);
+    remarks.extend(more);
     remarks.extend(source.notes.iter().cloned());
-    let masks = TourMasks {
-        water: source.water.as_ref(),
-        ground: source.ground.as_ref(),
-        billboards: &source.objects,
-    };
-    let maps = Maps::build(&scene, &source.picture, &masks, &|share, step| progress(0.1 + 0.9 * share, step))
-        .ok_or(AssembleError::Cancelled)?;
+    let maps = Maps::build(&scene, &source.picture, &source.masks(&scene), &|share, step| {
+        progress(0.1 + 0.9 * share, step)
+    })
+    .ok_or(AssembleError::Cancelled)?;
     Ok(AssembledTour { solution, scene, maps, remarks })
 }
 
 /// What the scene is built from.
-fn plan(source: &TourSource, solution: &Solution) -> ScenePlan {
+fn plan(source: &TourSource, solution: &Solution, backdrops: Vec<BackdropPlan>) -> ScenePlan {
     let tour = &source.tour;
     let parameters = &solution.parameters;
-    let infinite = matches!(annotate::background_place(tour), Some(BackgroundPlace::Infinity));
     ScenePlan {
         camera: parameters.camera(source.picture.size()),
         water: tour.water.is_some(),
         ground_height: tour.ground.as_ref().map(|_| parameters.ground_height),
-        background_distance: if infinite { f64::INFINITY } else { parameters.background_distance },
+        backdrops,
         billboards: tour
             .objects
             .iter()

@@ -41,6 +41,10 @@ pub struct TourSource {
     pub ground: Option<Mask>,
     /// Visible coverage of each object, in the tour's order.
     pub objects: Vec<Mask>,
+    /// Visible coverage of each of the background's bands that has a region, in the tour's order.
+    pub bands: Vec<Option<Mask>>,
+    /// The visible sky, if it has a region.
+    pub sky: Option<Mask>,
     /// What was put right while reading (a broken color profile, say).
     pub notes: Vec<String>,
 }
@@ -114,6 +118,21 @@ impl TourSource {
             .enumerate()
             .map(|(i, (whole, used))| region(&format!("objects[{i}].outline"), &whole.outline, &used.outline))
             .collect();
+        let bands: Vec<Option<Mask>> = tour
+            .background
+            .bands
+            .iter()
+            .zip(&used.background.bands)
+            .enumerate()
+            .map(|(i, (whole, used))| {
+                let (whole, used) = whole.region.as_ref().zip(used.region.as_ref())?;
+                region(&format!("background.bands[{i}].region"), whole, used)
+            })
+            .collect();
+        let sky = tour.sky.as_ref().zip(used.sky.as_ref()).and_then(|(whole, used)| {
+            let (whole, used) = whole.region.as_ref().zip(used.region.as_ref())?;
+            region("sky.region", whole, used)
+        });
         for (i, mask) in objects.iter().enumerate() {
             if mask.as_ref().is_some_and(|mask| mask.bounds().is_none()) {
                 problems.push(Problem::new(
@@ -154,6 +173,8 @@ impl TourSource {
             water,
             ground,
             objects: objects.into_iter().flatten().collect(),
+            bands,
+            sky,
             notes: decoded.notes,
         })
     }

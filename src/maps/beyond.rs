@@ -5,7 +5,6 @@
 
 use glam::{IVec2, UVec2};
 
-use super::Grid;
 use crate::scene::BEYOND_BORDER;
 
 /// How far maps reach below the lower border, as a share of the picture's height: what a camera sees that looks further down or steps back.
@@ -26,14 +25,6 @@ pub(super) fn folded(pixel: IVec2, size: UVec2) -> IVec2 {
         if x < size { x } else { period - 1 - x }
     };
     IVec2::new(fold(pixel.x, size.x), fold(pixel.y, size.y))
-}
-
-/// A grid of the picture's size, prolonged to the whole frame.
-pub(super) fn prolonged<T: Copy + Send + Sync + Default>(grid: &Grid<T>) -> Grid<T> {
-    let (low, high) = frame(grid.size);
-    Grid::from_fn(low, (high - low).as_uvec2(), |pixel| {
-        grid.get(folded(pixel, grid.size)).unwrap_or_default()
-    })
 }
 
 #[cfg(test)]

@@ -38,7 +38,7 @@ pub(super) fn take_in_bodies(
             continue;
         };
         let near = grow(&zone.coverage, reach, size);
-        let body = Body { picture, owner: &owner, index: index as u8, near, reach };
+        let body = Body { scene, picture, owner: &owner, index: index as u8, near, reach };
         let surface = &scene.components[index].surface;
         let below = |pixel: IVec2| {
             let point = PicturePoint::pixel_center(pixel.x.into(), pixel.y.into());
@@ -52,8 +52,8 @@ pub(super) fn take_in_bodies(
             for pixel in edge {
                 for step in [IVec2::X, IVec2::Y, IVec2::NEG_X, IVec2::NEG_Y] {
                     let pixel = pixel + step;
-                    // Undecided are what the water shows of the background, and the mirror image's own fringe.
-                    let undecided = owner.get(pixel) == Some(0)
+                    // Undecided are what the water shows of a backdrop, and the mirror image's own fringe.
+                    let undecided = is_backdrop(scene, owner.get(pixel))
                         || (coverage.water.get(pixel) == Some(true) && zone.grown.get(pixel) == Some(1));
                     if let Some(cell) = asked.index(pixel).filter(|&cell| undecided && !asked.cells[cell]) {
                         asked.cells[cell] = true;
@@ -135,8 +135,16 @@ fn set(grid: &mut Grid<u8>, pixel: IVec2) {
     }
 }
 
+/// Whether the water shows a backdrop there.
+fn is_backdrop(scene: &TourScene, owner: Option<u8>) -> bool {
+    owner
+        .and_then(|owner| scene.components.get(usize::from(owner)))
+        .is_some_and(|component| matches!(component.role, Role::LastLayer | Role::Band))
+}
+
 /// Decides for one billboard whether a water texel shows its body.
 struct Body<'a> {
+    scene: &'a TourScene,
     picture: &'a Picture,
     owner: &'a Grid<u8>,
     index: u8,
@@ -154,14 +162,13 @@ impl Body<'_> {
         for dy in (-self.reach..=self.reach).step_by(stride as usize) {
             for dx in (-6 * self.reach..=6 * self.reach).step_by(stride as usize) {
                 let at = pixel + IVec2::new(dx, dy);
-                match self.owner.get(at) {
-                    Some(0) if 2 * dy.abs() <= self.reach && self.near.get(at).unwrap_or(0) == 0 => {
+                let owner = self.owner.get(at);
+                if is_backdrop(self.scene, owner) {
+                    if 2 * dy.abs() <= self.reach && self.near.get(at).unwrap_or(0) == 0 {
                         background = background.min(self.distance(pixel, at));
                     }
-                    Some(owner) if owner == self.index && dx.abs() <= 2 * self.reach => {
-                        body = body.min(self.distance(pixel, at));
-                    }
-                    _ => {}
+                } else if owner == Some(self.index) && dx.abs() <= 2 * self.reach {
+                    body = body.min(self.distance(pixel, at));
                 }
             }
         }

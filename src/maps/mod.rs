@@ -14,6 +14,7 @@ mod mirror;
 mod reflection;
 mod texture;
 mod tint;
+mod visible;
 mod zones;
 
 pub use coverage::TourMasks;

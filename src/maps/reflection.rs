@@ -53,7 +53,7 @@ pub(super) fn fit_tint(scene: &TourScene, picture: &Picture, coverage: &Coverage
                 continue;
             };
             let at = found.direct.0.floor().as_ivec2();
-            if coverage.pure.get(at).is_some_and(|bits| bits & (1 << component) != 0) {
+            if coverage.is_pure(usize::from(component), at) {
                 samples.push(TintSample {
                     direct: linear(picture, at),
                     mirrored: linear(picture, pixel),
@@ -70,15 +70,16 @@ pub(super) fn linear(picture: &Picture, pixel: IVec2) -> [f32; 3] {
     picture.pixel(pixel.x as u32, pixel.y as u32).map(linear_from_srgb)
 }
 
-/// What the water shows of the background where a billboard hides it, brought to direct colors.
-pub(super) fn background_from_water(
+/// What the water shows of a backdrop where something nearer hides it, brought to direct colors.
+pub(super) fn backdrop_from_water(
     scene: &TourScene,
     picture: &Picture,
     tint: &Tint,
     owner: &Grid<u8>,
+    index: usize,
     pixel: IVec2,
 ) -> Option<[f32; 3]> {
-    let surface = &scene.background().surface;
+    let surface = &scene.components[index].surface;
     let point = PicturePoint::pixel_center(pixel.x.into(), pixel.y.into());
     let at = reflection_of(scene, surface, point)?;
     let corner = (at.0 - 0.5).floor().as_ivec2();
@@ -90,7 +91,7 @@ pub(super) fn background_from_water(
         (IVec2::Y, (1.0 - part.x) * part.y),
         (IVec2::ONE, part.x * part.y),
     ] {
-        if owner.get(corner + step)? != 0 {
+        if usize::from(owner.get(corner + step)?) != index {
             return None;
         }
         let color = linear(picture, corner + step);
@@ -138,7 +139,7 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
         let (predicted, sourced) = match found {
             Some(found) => {
                 let at = found.direct.0.floor().as_ivec2();
-                let sourced = coverage.pure.get(at).is_some_and(|bits| bits & (1 << index) != 0);
+                let sourced = coverage.is_pure(index, at);
                 (tint.mirrored(direct.sample(found.direct), found.grazing), sourced)
             }
             None => ([0.0; 3], false),

@@ -3,10 +3,10 @@
 use glam::IVec2;
 use rayon::prelude::*;
 
-use super::beyond::{folded, prolonged};
+use super::beyond::{folded, frame};
 use super::coverage::{Coverage, is_above_contact};
 use super::fill::push_pull;
-use super::reflection::{background_from_water, composite, linear};
+use super::reflection::{backdrop_from_water, composite, linear};
 use super::tint::Tint;
 use super::zones::stack_at;
 use super::{Grid, Layer, Zone, lift};
@@ -15,9 +15,9 @@ use crate::picture::color::srgb_from_linear;
 use crate::scene::Role;
 use crate::scene::TourScene;
 
-/// The direct colors of a component, linear light, filled over its whole grid.
+/// The direct colors of a component, linear light, filled over its whole layer.
 ///
-/// The background takes from the water what the lens did not see; the rest is push-pull.
+/// Backdrops take from the water what the lens did not see; the rest is push-pull.
 pub(super) fn filled_colors(
     scene: &TourScene,
     picture: &Picture,
@@ -26,39 +26,42 @@ pub(super) fn filled_colors(
     owner: &Grid<u8>,
     index: usize,
 ) -> Grid<[f32; 3]> {
+    let role = scene.components[index].role;
     let area = &coverage.grown[index];
-    let pure = |pixel: IVec2| coverage.pure.get(pixel).is_some_and(|bits| bits & (1 << index) != 0);
-    let mut colors =
-        Grid::from_fn(
-            area.origin,
-            area.size,
-            |pixel| {
-                if pure(pixel) { linear(picture, pixel) } else { [0.0; 3] }
-            },
-        );
+    let low = area.origin.max(IVec2::ZERO);
+    let high = (area.origin + area.size.as_ivec2()).min(picture.size().as_ivec2()).max(low + 1);
+    let pure = |pixel: IVec2| coverage.is_pure(index, pixel);
+    let mut colors = Grid::from_fn(low, (high - low).as_uvec2(), |pixel| {
+        if pure(pixel) { linear(picture, pixel) } else { [0.0; 3] }
+    });
     let mut known: Vec<f32> = (0..colors.cells.len())
         .into_par_iter()
         .map(|cell| f32::from(u8::from(pure(colors.pixel(cell)))))
         .collect();
-    if scene.components[index].role == Role::Background && scene.water {
-        fill_from_water(scene, picture, coverage, tint, owner, &mut colors, &mut known);
+    if matches!(role, Role::LastLayer | Role::Band) && scene.water {
+        fill_from_water(scene, picture, coverage, tint, owner, index, &mut colors, &mut known);
     }
     push_pull(colors.size.x as usize, &mut colors.cells, &known);
-    match scene.components[index].role {
-        Role::Billboard => colors,
-        Role::Ground => prolonged(&colors),
-        Role::Background => {
-            // Sky over sky: what is folded to the sides goes on, what would hang upside down from above does not.
-            let mut wide = prolonged(&colors);
-            let known: Vec<f32> =
-                (0..wide.cells.len()).map(|cell| f32::from(u8::from(wide.pixel(cell).y >= 0))).collect();
-            push_pull(wide.size.x as usize, &mut wide.cells, &known);
-            wide
-        }
+    let (low, high) = match role {
+        Role::LastLayer | Role::Ground => frame(picture.size()),
+        Role::Band | Role::Billboard => (area.origin, area.origin + area.size.as_ivec2()),
+    };
+    let inside = |pixel: IVec2| {
+        let end = colors.origin + colors.size.as_ivec2() - 1;
+        folded(pixel, picture.size()).clamp(colors.origin, end)
+    };
+    let mut wide =
+        Grid::from_fn(low, (high - low).as_uvec2(), |pixel| colors.get(inside(pixel)).unwrap_or_default());
+    if role != Role::Billboard {
+        // Sky over sky: what is folded to the sides goes on, what would hang upside down from above does not.
+        let known: Vec<f32> =
+            (0..wide.cells.len()).map(|cell| f32::from(u8::from(wide.pixel(cell).y >= 0))).collect();
+        push_pull(wide.size.x as usize, &mut wide.cells, &known);
     }
+    wide
 }
 
-/// Fills hidden background from its mirror image; the fit's local miss is taken out by a membrane, so that no seam
+/// Fills what is hidden of a backdrop from its mirror image; the fit's local miss is taken out by a membrane, so that no seam
 /// shows.
 fn fill_from_water(
     scene: &TourScene,
@@ -66,16 +69,14 @@ fn fill_from_water(
     coverage: &Coverage,
     tint: &Tint,
     owner: &Grid<u8>,
+    index: usize,
     colors: &mut Grid<[f32; 3]>,
     known: &mut [f32],
 ) {
     let candidates = Grid::from_fn(colors.origin, colors.size, |pixel| {
-        coverage
-            .above
-            .get(pixel)
-            .unwrap_or(false)
-            .then(|| background_from_water(scene, picture, tint, owner, pixel))
-            .flatten()
+        let stands =
+            coverage.alpha[index].get(pixel).unwrap_or(0) > 0 && is_above_contact(scene, index, pixel);
+        stands.then(|| backdrop_from_water(scene, picture, tint, owner, index, pixel)).flatten()
     });
     let mut misses = vec![[0.0; 3]; known.len()];
     let mut both = vec![0.0; known.len()];
@@ -107,16 +108,15 @@ pub(super) fn texture_map(
     index: usize,
 ) -> Layer {
     Layer::from_fn(colors.origin, colors.size, |pixel| {
-        let pure = coverage.pure.get(pixel).is_some_and(|bits| bits & (1 << index) != 0);
-        let [r, g, b] = if pure {
+        let [r, g, b] = if coverage.is_pure(index, pixel) {
             picture.pixel(pixel.x as u32, pixel.y as u32)
         } else {
             colors.get(pixel).unwrap_or_default().map(srgb_from_linear)
         };
         let alpha = coverage.alpha[index].get(pixel).unwrap_or_else(|| match scene.components[index].role {
-            Role::Billboard => 0,
-            Role::Background if is_above_contact(scene, pixel) => 255,
-            _ => beyond(coverage, index, pixel, picture),
+            Role::Billboard | Role::Band => 0,
+            Role::LastLayer if is_above_contact(scene, 0, pixel) => 255,
+            Role::LastLayer | Role::Ground => beyond(coverage, index, pixel, picture),
         });
         [r, g, b, alpha]
     })
@@ -138,7 +138,8 @@ pub(super) fn lift_textures(
     textures: &mut [Layer],
     reflections: &[Option<Layer>],
 ) {
-    let order = draw_order(scene);
+    let mut order = scene.near_to_far(scene.camera.pose.position);
+    order.reverse();
     let edits = {
         let textures = &*textures;
         Grid::from_fn(IVec2::ZERO, picture.size(), |pixel| {
@@ -164,15 +165,6 @@ pub(super) fn lift_textures(
             textures[*nearest].cells[at] = *texel;
         }
     }
-}
-
-/// Components in the order they are drawn at the first view, far to near: background, ground, billboards.
-fn draw_order(scene: &TourScene) -> Vec<usize> {
-    let mut order = scene.billboards_near_to_far(scene.camera.pose.position);
-    order.extend(scene.ground());
-    order.push(0);
-    order.reverse();
-    order
 }
 
 /// How much of a layer's coverage the lift added, mean over the texels it shows.

@@ -9,6 +9,7 @@ use super::beyond::frame;
 use super::coverage::{Coverage, grow, is_mirrored};
 use super::mirror::mirrored;
 use crate::picture::PicturePoint;
+use crate::scene::Role;
 use crate::scene::Surface;
 use crate::scene::TourScene;
 use crate::scene::mirror;
@@ -25,7 +26,7 @@ pub(super) struct Zone {
     pub grown: Grid<u8>,
 }
 
-/// Zones of all components; the background's is empty, it is the last layer everywhere.
+/// Zones of all components; the last layer has none, it lies behind everything.
 pub(super) fn zones(scene: &TourScene, coverage: &Coverage) -> Vec<Option<Zone>> {
     let size = scene.camera.intrinsics.size;
     let fringe = fringe(size);
@@ -44,9 +45,28 @@ pub(super) fn zones(scene: &TourScene, coverage: &Coverage) -> Vec<Option<Zone>>
                 mirrored(scene, &component.surface, point)
                     .map_or(0, |found| (255.0 * alpha.coverage(found.direct)).round() as u8)
             });
+            // Bodies still grow in theirs.
+            let zone = if component.role == Role::Band { covered_rows(zone) } else { zone };
             Some(Zone { grown: grow(&zone, fringe, size), coverage: zone })
         })
         .collect()
+}
+
+/// The rows of a zone that cover anything, and a free one above and below where there is one: a band's box is the
+/// whole frame.
+fn covered_rows(zone: Grid<u8>) -> Grid<u8> {
+    let rows = || zone.cells.chunks(zone.size.x.max(1) as usize);
+    let covers = |row: &[u8]| row.iter().any(|&covered| covered > 0);
+    let (Some(first), Some(last)) = (rows().position(covers), rows().rposition(covers)) else {
+        return Grid::filled(zone.origin, UVec2::ONE, 0);
+    };
+    let (first, last) = (first.saturating_sub(1), (last + 1).min(zone.size.y as usize - 1));
+    let width = zone.size.x as usize;
+    Grid {
+        origin: zone.origin + IVec2::new(0, first as i32),
+        size: UVec2::new(zone.size.x, (last + 1 - first) as u32),
+        cells: zone.cells[first * width..(last + 1) * width].to_vec(),
+    }
 }
 
 /// Width of the fringe in pixels.

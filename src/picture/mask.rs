@@ -111,12 +111,15 @@ impl Mask {
         mix(upper, lower, part.y)
     }
 
-    /// The smallest block of pixels that holds all coverage; `None` when there is none.
+    /// Coverage this near to nothing or to everything is that: renderers and compressors leave dust in masks.
+    pub const DUST: u8 = 6;
+
+    /// The smallest block of pixels that holds all coverage but [dust](Self::DUST); `None` when there is none.
     #[must_use]
     pub fn bounds(&self) -> Option<PixelRect> {
         let mut bounds: Option<PixelRect> = None;
         for (y, row) in (0..).zip(self.coverage.chunks_exact(self.size.x as usize)) {
-            let covered = |value: &u8| *value > 0;
+            let covered = |value: &u8| *value >= Self::DUST;
             if let (Some(first), Some(last)) = (row.iter().position(covered), row.iter().rposition(covered)) {
                 let (min, max) = (UVec2::new(first as u32, y), UVec2::new(last as u32 + 1, y + 1));
                 let so_far = bounds.unwrap_or(PixelRect { min, max });

@@ -92,6 +92,14 @@ fn maps_of(tour: &Tour) -> Vec<(String, RelativePath)> {
     if let Some(ground) = &tour.ground {
         mask("ground.region".to_owned(), &ground.region);
     }
+    for (i, band) in tour.background.bands.iter().enumerate() {
+        if let Some(region) = &band.region {
+            mask(format!("background.bands[{i}].region"), region);
+        }
+    }
+    if let Some(region) = tour.sky.as_ref().and_then(|sky| sky.region.as_ref()) {
+        mask("sky.region".to_owned(), region);
+    }
     for (i, object) in tour.objects.iter().enumerate() {
         mask(format!("objects[{i}].outline"), &object.outline);
     }

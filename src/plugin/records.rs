@@ -27,8 +27,8 @@ pub(super) struct ViewRecord {
     pub world_from_view: Mat4,
     /// The same camera in the tour's space, computed in f64.
     pub tour_from_view: DAffine3,
-    /// Billboards near to far.
-    pub near_to_far: Vec<usize>,
+    /// Billboards and bands near to far.
+    pub walls_near_to_far: Vec<usize>,
     /// The ground's index.
     pub ground: Option<usize>,
 }
@@ -59,10 +59,10 @@ impl Records {
             let ground = view.ground.map_or(-1.0, |index| index as f32);
             let to = view.tour_from_view;
             texels[4] = to.matrix3.x_axis.as_vec3().extend(0.0);
-            texels[5] = to.matrix3.y_axis.as_vec3().extend(view.near_to_far.len() as f32);
+            texels[5] = to.matrix3.y_axis.as_vec3().extend(view.walls_near_to_far.len() as f32);
             texels[6] = to.matrix3.z_axis.as_vec3().extend(ground);
             texels[7] = to.translation.as_vec3().extend(0.0);
-            for (place, &index) in view.near_to_far.iter().enumerate() {
+            for (place, &index) in view.walls_near_to_far.iter().enumerate() {
                 texels[8 + place / 4][place % 4] = index as f32;
             }
         }

@@ -127,7 +127,7 @@ pub(super) fn show(
             depth_only: false,
             water: true,
         };
-        let reach = match scene.background().surface {
+        let reach = match scene.last_layer().surface {
             Surface::Wall(wall) => wall.span[1] as f32,
             _ => 1e4,
         };

@@ -55,7 +55,7 @@ pub(super) fn look_at_tours(
             if !tour_from_view.is_finite() {
                 continue;
             }
-            let near_to_far = solved.scene.billboards_near_to_far(tour_from_view.translation);
+            let near_to_far = solved.scene.near_to_far(tour_from_view.translation);
             let distances = new_order.entry(camera).or_default();
             let scale =
                 (affine(transform).matrix3.inverse() * affine(tour_transform).matrix3).x_axis.length();
@@ -73,7 +73,7 @@ pub(super) fn look_at_tours(
             views.push(ViewRecord {
                 world_from_view: transform.to_matrix(),
                 tour_from_view,
-                near_to_far,
+                walls_near_to_far: solved.scene.walls_of(&near_to_far).collect(),
                 ground: solved.scene.ground(),
             });
         }
@@ -93,7 +93,7 @@ fn affine(transform: &GlobalTransform) -> DAffine3 {
     DAffine3::from_mat4(DMat4::from_cols_array(&transform.to_matrix().to_cols_array().map(f64::from)))
 }
 
-/// Sort distances in the order of drawing: water, background, ground, billboards far to near, then all depths.
+/// Sort distances in the order of drawing: water, components far to near, then all depths.
 struct Ranks {
     water: f32,
     components: Vec<f32>,
@@ -122,21 +122,18 @@ fn sort_distances(
             let center = DVec3::new(0.5 * (a.x + b.x), tour_from_view.translation.y, 0.5 * (a.y + b.y));
             (center - tour_from_view.translation).dot(forward).max(0.0) * world_per_tour
         }
+        // The ground begins at the horizon; where it is drawn follows from the order alone.
         Surface::Level(_) | Surface::Infinity => 1e6,
     };
     // Never nearer than what is drawn before: an item of the game's sorts into the gaps.
-    let background = depth(&scene.background().surface);
-    let mut last = -background as f32;
+    let last_layer = depth(&scene.last_layer().surface);
+    let mut last = -last_layer as f32;
     let mut next = |own: f64| {
         last = (-own as f32).max(last + 1e-4 * last.abs().max(1.0));
         last
     };
     let mut components = vec![0.0; scene.components.len()];
-    let water = next(background);
-    components[0] = next(background);
-    if let Some(ground) = scene.ground() {
-        components[ground] = next(background);
-    }
+    let water = next(last_layer);
     for &index in near_to_far.iter().rev() {
         components[index] = next(depth(&scene.components[index].surface));
     }

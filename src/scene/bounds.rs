@@ -2,7 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Role, SceneComponent, ScenePlan, Surface};
+use super::{Role, SceneComponent, Surface};
+use crate::camera::PinholeCamera;
 
 /// A box in the world that keeps a visitor's camera where the picture still holds.
 ///
@@ -34,27 +35,34 @@ const FORWARD: f64 = 0.6;
 const BACK: f64 = 0.1;
 /// Lowest and highest camera, as shares of the height the picture was taken from.
 const HEIGHT: [f64; 2] = [0.35, 2.2];
-/// Without billboards, the share of the background's distance that stands for the nearest one.
+/// Without billboards, the share of the nearest backdrop's distance that stands for the nearest one.
 const EMPTY_SCENE: f64 = 0.15;
+/// Meters at which a scene without any upright plane is taken to stand.
+const NOWHERE: f64 = 100.0;
 
 impl CameraBounds {
     /// The bounds of a scene's components.
-    pub(super) fn of(plan: &ScenePlan, components: &[SceneComponent]) -> Self {
-        let at = plan.camera.pose.position;
-        let distance = if plan.background_distance.is_finite() { plan.background_distance } else { 100.0 };
-        let nearest = components
-            .iter()
-            .filter_map(|component| match (&component.role, &component.surface) {
-                (Role::Billboard, Surface::Wall(wall)) => {
-                    wall.ends().iter().map(|end| at.z - end.y).min_by(f64::total_cmp)
-                }
-                _ => None,
-            })
-            .fold(EMPTY_SCENE * distance, f64::min)
-            .max(0.5);
-        let ground = plan.ground_height.unwrap_or(0.0);
+    pub(super) fn of(
+        camera: &PinholeCamera,
+        ground_height: Option<f64>,
+        components: &[SceneComponent],
+    ) -> Self {
+        let at = camera.pose.position;
+        let nearest_end = |billboards: bool| {
+            components
+                .iter()
+                .filter(|component| (component.role == Role::Billboard) == billboards)
+                .filter_map(|component| match &component.surface {
+                    Surface::Wall(wall) => wall.ends().iter().map(|end| at.z - end.y).min_by(f64::total_cmp),
+                    Surface::Level(_) | Surface::Infinity => None,
+                })
+                .min_by(f64::total_cmp)
+        };
+        let backdrop = EMPTY_SCENE * nearest_end(false).unwrap_or(NOWHERE);
+        let nearest = nearest_end(true).unwrap_or(backdrop).min(backdrop).max(0.5);
+        let ground = ground_height.unwrap_or(0.0);
         let low = ground + HEIGHT[0] * (at.y - ground);
-        let lens = &plan.camera.intrinsics;
+        let lens = &camera.intrinsics;
         Self {
             nearest,
             look: lens.size.as_dvec2() * (LOOK * BEYOND_BORDER / lens.focal_px),

@@ -5,6 +5,7 @@
 
 use glam::{DVec2, DVec3, IVec2, UVec2};
 
+use super::backdrop::{self, BackdropPlan};
 use super::{CameraBounds, Level, Role, SceneComponent, Surface, TourScene, Wall};
 use crate::camera::PinholeCamera;
 use crate::camera::Ray;
@@ -22,9 +23,6 @@ const BEFORE_BACKGROUND: f64 = 0.98;
 
 /// Margin of a billboard's rectangle around its mask's box, per pixel of picture width.
 const MARGIN: f64 = 0.035;
-
-/// The background's walls reach this many of its distances to each side and up: past any sensible view.
-const BACKGROUND_REACH: f64 = 60.0;
 
 /// By how many pixels a billboard's rectangle is wider than its mask's box: room for its mirror image, which is that of
 /// a body and not of a flat mask.
@@ -55,9 +53,10 @@ pub struct ScenePlan {
     pub water: bool,
     /// Height of the ground above the water, meters, if there is ground.
     pub ground_height: Option<f64>,
-    /// Distance of the background along −z, meters; infinite when it shows no parallax.
-    pub background_distance: f64,
-    /// What stands in the scene, at most [`MAX_COMPONENTS`] with background and ground.
+    /// What closes the scene, in the tour's order; the farthest becomes the last layer. Without any, the last layer is
+    /// at infinity.
+    pub backdrops: Vec<BackdropPlan>,
+    /// What stands in the scene, at most [`MAX_COMPONENTS`] with backdrops and ground.
     pub billboards: Vec<BillboardPlan>,
 }
 
@@ -65,23 +64,19 @@ pub struct ScenePlan {
 #[must_use]
 pub fn build(plan: &ScenePlan) -> (TourScene, Vec<String>) {
     let mut remarks = Vec::new();
-    let distance = plan.background_distance;
-    let background = if distance.is_finite() {
-        Surface::Wall(Wall {
-            foot: DVec2::new(0.0, -distance),
-            along: DVec2::X,
-            span: [-BACKGROUND_REACH * distance, BACKGROUND_REACH * distance],
-            rise: [-BACKGROUND_REACH * distance, BACKGROUND_REACH * distance],
-        })
-    } else {
-        Surface::Infinity
-    };
+    let backdrops = backdrop::place_all(&plan.camera, &plan.backdrops, &mut remarks);
     let component = |name: &str, role, surface| SceneComponent { name: name.to_owned(), role, surface };
-    let mut components = vec![component("background", Role::Background, background)];
+    let last = &backdrops[0];
+    let mut components = vec![component(&last.name, Role::LastLayer, last.surface)];
     if let Some(height) = plan.ground_height {
-        let level = Surface::Level(ground_level(&plan.camera, height, distance));
+        let nearest = backdrops.iter().map(|placed| placed.distance).fold(f64::INFINITY, f64::min);
+        let level = Surface::Level(ground_level(&plan.camera, height, nearest));
         components.push(component("ground", Role::Ground, level));
     }
+    for band in &backdrops[1..] {
+        components.push(component(&band.name, Role::Band, band.surface));
+    }
+    let distance = last.distance;
     for billboard in &plan.billboards {
         if components.len() == MAX_COMPONENTS {
             remarks.push(format!(
@@ -97,7 +92,7 @@ pub fn build(plan: &ScenePlan) -> (TourScene, Vec<String>) {
         let wall = billboard_wall(&plan.camera, billboard, height, distance, &mut remarks);
         components.push(component(&billboard.name, Role::Billboard, Surface::Wall(wall)));
     }
-    let bounds = CameraBounds::of(plan, &components);
+    let bounds = CameraBounds::of(&plan.camera, plan.ground_height, &components);
     (TourScene { camera: plan.camera, water: plan.water, components, bounds }, remarks)
 }
 
@@ -182,6 +177,7 @@ fn meet_within(plane: &Wall, ray: Ray, farthest: f64) -> Option<DVec3> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::BackdropPlace;
     use super::*;
     use crate::camera::{CameraPose, Intrinsics};
 
@@ -201,7 +197,10 @@ mod tests {
             camera: camera(),
             water: true,
             ground_height: Some(0.5),
-            background_distance: 120.0,
+            backdrops: vec![BackdropPlan {
+                name: "background".into(),
+                place: BackdropPlace::Distance(120.0),
+            }],
             billboards: vec![BillboardPlan {
                 name: "boat".into(),
                 support: Support::Water,

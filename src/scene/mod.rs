@@ -1,14 +1,16 @@
 //! The scene in meters: the framework (water, ground, background) and the billboards that stand in it.
 //!
 //! World: x right, y up, −z into the picture; resting water at y = 0; the picture was taken from (0, h, 0). The water
-//! is the plane y = 0 itself and no component; everything else is one. Component 0 is always the background, the last
-//! layer: a ray that misses everything sees it at infinity.
+//! is the plane y = 0 itself and no component; everything else is one. Component 0 is always the last layer, the
+//! farthest of what closes the scene: a ray that misses everything sees it at infinity.
 
+mod backdrop;
 mod bounds;
 mod build;
 mod order;
 mod surface;
 
+pub use backdrop::{BackdropPlace, BackdropPlan};
 pub use bounds::{BEYOND_BORDER, CameraBounds};
 pub use build::{BillboardPlan, MAX_COMPONENTS, ScenePlan, build, margin_px};
 pub use order::near_to_far;
@@ -19,8 +21,10 @@ use crate::camera::PinholeCamera;
 /// What a component is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// The last layer: opaque wherever it stands above the water.
-    Background,
+    /// The farthest backdrop: opaque wherever it stands above the water.
+    LastLayer,
+    /// A nearer backdrop, as a far shore before mountains: it goes on behind what hides it and beyond the border.
+    Band,
     /// The land one could walk on, a level plane.
     Ground,
     /// Something that stands upright in the water or on the ground.
@@ -30,7 +34,7 @@ pub enum Role {
 /// One plane of the scene with everything the picture shows on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneComponent {
-    /// The name in the tour file, "background" or "ground".
+    /// The name in the tour file, "background", "sky" or "ground".
     pub name: String,
     /// What it is for.
     pub role: Role,
@@ -45,16 +49,17 @@ pub struct TourScene {
     pub camera: PinholeCamera,
     /// Whether there is water at y = 0.
     pub water: bool,
-    /// The background first, the ground (if any) second, then the billboards in the tour's order.
+    /// The last layer first, the ground (if any) second, then the bands far to near, then the billboards in the tour's
+    /// order.
     pub components: Vec<SceneComponent>,
     /// Where a camera may go.
     pub bounds: CameraBounds,
 }
 
 impl TourScene {
-    /// The background, the last layer.
+    /// The last layer.
     #[must_use]
-    pub fn background(&self) -> &SceneComponent {
+    pub fn last_layer(&self) -> &SceneComponent {
         &self.components[0]
     }
 
@@ -64,18 +69,34 @@ impl TourScene {
         self.components.iter().position(|component| component.role == Role::Ground)
     }
 
-    /// The billboards' indices, near to far as seen from `position` (meters; only x and z matter).
+    /// All components in the order of drawing, near to far as seen from `position` (meters; only x and z matter).
+    ///
+    /// The ground ends where the first band stands, so it comes just before that; the last layer is last.
     #[must_use]
-    pub fn billboards_near_to_far(&self, position: glam::DVec3) -> Vec<usize> {
+    pub fn near_to_far(&self, position: glam::DVec3) -> Vec<usize> {
         let walls: Vec<(usize, &Wall)> = self
             .components
             .iter()
             .enumerate()
             .filter_map(|(index, component)| match (&component.role, &component.surface) {
-                (Role::Billboard, Surface::Wall(wall)) => Some((index, wall)),
+                (Role::Billboard | Role::Band, Surface::Wall(wall)) => Some((index, wall)),
                 _ => None,
             })
             .collect();
-        near_to_far(&walls, glam::DVec2::new(position.x, position.z))
+        let mut order = near_to_far(&walls, glam::DVec2::new(position.x, position.z));
+        if let Some(ground) = self.ground() {
+            let first_band = order.iter().position(|&index| self.components[index].role == Role::Band);
+            order.insert(first_band.unwrap_or(order.len()), ground);
+        }
+        order.push(0);
+        order
+    }
+
+    /// The billboards and bands of an order of drawing.
+    pub fn walls_of(&self, order: &[usize]) -> impl Iterator<Item = usize> {
+        order
+            .iter()
+            .copied()
+            .filter(|&index| matches!(self.components[index].role, Role::Billboard | Role::Band))
     }
 }

@@ -1,6 +1,6 @@
 //! The reference ray tracer: the definition of right, and image comparison.
 //!
-//! The paper's rendering (its section on rendering; notes §8.1): billboards near to far, ground, background, water
+//! The paper's rendering (its section on rendering; notes §8.1): billboards near to far, ground, backdrops, water
 //! last; at the water the ray is mirrored and reads reflection maps instead of texture maps. Soft masks are composited
 //! in linear light; whatever a ray misses, it ends in the last layer, at infinity. Needs no engine and no GPU.
 
@@ -66,15 +66,14 @@ impl<'a> Reference<'a> {
     pub fn render(&self, camera: &PinholeCamera, samples: u32) -> Picture {
         let size = camera.intrinsics.size.max(UVec2::ONE);
         let offsets = sample_offsets(samples);
-        let order = self.scene.billboards_near_to_far(camera.pose.position);
-        let ground = self.scene.ground();
+        let order = self.scene.near_to_far(camera.pose.position);
         let mut pixels = vec![[0_u8; 3]; size.x as usize * size.y as usize];
         pixels.par_chunks_mut(size.x as usize).enumerate().for_each(|(row, pixels)| {
             for (column, pixel) in pixels.iter_mut().enumerate() {
                 let corner = DVec2::new(column as f64, row as f64);
                 let mut sum = [0.0_f32; 3];
                 for &offset in &offsets {
-                    let color = self.look(camera.ray(PicturePoint(corner + offset)), &order, ground);
+                    let color = self.look(camera.ray(PicturePoint(corner + offset)), &order);
                     for c in 0..3 {
                         sum[c] += color[c];
                     }
@@ -87,9 +86,9 @@ impl<'a> Reference<'a> {
     }
 
     /// The color along a ray of the world, linear light.
-    fn look(&self, ray: Ray, near_to_far: &[usize], ground: Option<usize>) -> [f32; 3] {
+    fn look(&self, ray: Ray, near_to_far: &[usize]) -> [f32; 3] {
         let mut light = Accumulated::default();
-        for &index in near_to_far.iter().chain(&ground).chain(&[0]) {
+        for &index in near_to_far {
             let component = &self.scene.components[index];
             if let Some(t) = component.surface.meet(ray) {
                 // At infinity only the direction counts.
@@ -102,7 +101,7 @@ impl<'a> Reference<'a> {
             }
         }
         let last = if self.scene.water && ray.direction.y < 0.0 {
-            self.mirrored(ray, near_to_far, ground)
+            self.mirrored(ray, near_to_far)
         } else {
             let [r, g, b, _] = self.maps.components[0].texture.sample(self.eye.see_far(ray.direction));
             [r, g, b]
@@ -112,7 +111,7 @@ impl<'a> Reference<'a> {
     }
 
     /// What the water shows to a ray that goes down to it.
-    fn mirrored(&self, ray: Ray, near_to_far: &[usize], ground: Option<usize>) -> [f32; 3] {
+    fn mirrored(&self, ray: Ray, near_to_far: &[usize]) -> [f32; 3] {
         let mut at = ray.at(-ray.origin.y / ray.direction.y);
         let mut water = self.water.at(DVec2::new(at.x, at.z));
         if water.height != 0.0 {
@@ -126,8 +125,9 @@ impl<'a> Reference<'a> {
         let up = Ray { origin: at, direction };
 
         let mut light = Accumulated::default();
-        let mut ground = ground.and_then(|index| self.mirror_hit(index, up));
-        for &index in near_to_far {
+        // The ground is level: which walls it hides depends on the ray.
+        let mut ground = self.scene.ground().and_then(|index| self.mirror_hit(index, up));
+        for index in self.scene.walls_of(near_to_far) {
             let Some((t, texel)) = self.mirror_hit(index, up) else { continue };
             if let Some((_, texel)) = ground.take_if(|(t_ground, _)| *t_ground < t) {
                 light.add(texel);
@@ -141,7 +141,7 @@ impl<'a> Reference<'a> {
             light.add(texel);
         }
         let Some(last) = &self.maps.components[0].reflection else { return light.color };
-        let seen = match self.scene.background().surface {
+        let seen = match self.scene.last_layer().surface {
             Surface::Infinity => None,
             surface => surface.meet(up).map(|t| self.eye.see(mirror(up.at(t)))),
         };
@@ -154,7 +154,7 @@ impl<'a> Reference<'a> {
     fn mirror_hit(&self, index: usize, up: Ray) -> Option<(f64, [f32; 4])> {
         let layer: &Layer = self.maps.components[index].reflection.as_ref()?;
         let component = &self.scene.components[index];
-        debug_assert!(component.role != Role::Background, "the background is the last layer");
+        debug_assert!(component.role != Role::LastLayer, "the last layer is met by all rays");
         let t = component.surface.meet(up)?;
         let point = up.at(t);
         (point.y >= 0.0).then(|| (t, layer.sample(self.eye.see(mirror(point)))))

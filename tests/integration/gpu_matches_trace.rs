@@ -9,8 +9,8 @@ use bevy::render::settings::{WgpuSettings, WgpuSettingsPriority};
 use bevy_picture_tour::assemble::TourSource;
 use bevy_picture_tour::camera::PinholeCamera;
 use bevy_picture_tour::headless::{HeadlessTour, headless_app, headless_app_with};
-use bevy_picture_tour::picture::{Picture, PngPixels, save_png};
-use bevy_picture_tour::tour::{BackgroundPlace, Tour};
+use bevy_picture_tour::picture::{Mask, Picture, PicturePoint, PngPixels, save_png};
+use bevy_picture_tour::tour::{BackgroundPlace, Band, Region, Sky, Tour, TourFile};
 use bevy_picture_tour::trace::Reference;
 use bevy_picture_tour::trace::compare::Comparison;
 
@@ -98,14 +98,23 @@ fn the_demo_s_first_view_is_its_picture() {
     }
 }
 
-#[test]
-fn a_background_at_infinity_is_drawn_alike() {
-    let Some(_gpu) = adapter() else { return };
+/// World A1 with another background.
+fn a1_with(change: impl FnOnce(&mut TourFile)) -> Arc<TourSource> {
     let source = a1::source();
     let mut file = source.tour.to_file();
-    file.background.place = Some(BackgroundPlace::Infinity);
+    change(&mut file);
     let tour = Tour::check(file).unwrap();
-    let source = Arc::new(TourSource { tour, ..(*source).clone() });
+    let mask = |region: &Region| match region {
+        Region::Polygon(corners) => Mask::from_polygon(source.picture.size(), corners).unwrap(),
+        Region::Mask(file) => panic!("{file} is not drawn here"),
+    };
+    let bands = tour.background.bands.iter().map(|band| band.region.as_ref().map(mask)).collect();
+    let sky = tour.sky.as_ref().and_then(|sky| sky.region.as_ref()).map(mask);
+    Arc::new(TourSource { tour, bands, sky, ..(*source).clone() })
+}
+
+/// The GPU against the tracer at the first view and another, and both against the picture.
+fn is_drawn_alike(source: Arc<TourSource>) {
     let size = source.picture.size();
     let mut gpu = HeadlessTour::new(source.clone(), size, Transform::default()).unwrap();
     let solved = gpu.solved().expect("the tour is shown");
@@ -119,6 +128,37 @@ fn a_background_at_infinity_is_drawn_alike() {
     let first = reference.render(&solved.scene.camera, 1);
     let found = Comparison::of(&first, &source.picture).unwrap();
     assert!(found.max_code_difference <= 1, "the first view is {} codes off", found.max_code_difference);
+}
+
+#[test]
+fn a_background_at_infinity_is_drawn_alike() {
+    let Some(_gpu) = adapter() else { return };
+    is_drawn_alike(a1_with(|file| file.background.place = Some(BackgroundPlace::Infinity)));
+}
+
+#[test]
+fn bands_before_a_sky_are_drawn_alike() {
+    let Some(_gpu) = adapter() else { return };
+    let polygon = |corners: &[(f64, f64)]| {
+        Region::Polygon(corners.iter().map(|&(x, y)| PicturePoint::new(x, y)).collect())
+    };
+    let source = a1_with(|file| {
+        // A shore that recedes to the right, mountains behind it, and a sky with a slanted border.
+        file.background.place = None;
+        let shore = [(0.0, 230.0), (960.0, 250.0), (960.0, 284.0), (0.0, 284.0)];
+        let contact = [(20.0, 284.0), (940.0, 279.0)].map(|(x, y)| PicturePoint::new(x, y));
+        file.background.bands = vec![
+            Band {
+                name: "shore".into(),
+                region: Some(polygon(&shore)),
+                place: BackgroundPlace::Contact(contact.into()),
+            },
+            Band { name: "mountains".into(), region: None, place: BackgroundPlace::Distance(400.0) },
+        ];
+        let region = Some(polygon(&[(0.0, 0.0), (960.0, 0.0), (960.0, 120.0), (0.0, 90.0)]));
+        file.sky = Some(Sky { region, drift: None });
+    });
+    is_drawn_alike(source);
 }
 
 /// Set in the process that this test starts for itself.

@@ -1,0 +1,274 @@
+//! What the masks show of each component, and what it is behind whatever hides it.
+//!
+//! Shares of a pixel never sum to more than one; what no mask claims goes to the backdrop that has none, and below its
+//! contact line, where the water mask leaves it free, to the nearest backdrop.
+
+use glam::{IVec2, UVec2};
+
+use super::Grid;
+use super::beyond::{folded, frame};
+use super::coverage::{TourMasks, is_above_contact};
+use super::fill::membrane;
+use crate::picture::Mask;
+use crate::picture::PicturePoint;
+use crate::scene::Role;
+use crate::scene::TourScene;
+use crate::scene::margin_px;
+
+/// A pixel is known, not guessed, while what is nearer hides less of it than this.
+const HIDDEN: u32 = 5;
+
+/// Visible coverage of every component inside the picture, 0–255, in the scene's order.
+pub(super) fn visible(scene: &TourScene, masks: &TourMasks) -> Vec<Grid<u8>> {
+    let size = scene.camera.intrinsics.size;
+    let mut seen: Vec<Grid<u8>> = Vec::with_capacity(scene.components.len());
+    let (mut backdrops, mut billboards) = (masks.backdrops.iter(), masks.billboards.iter());
+    for component in &scene.components {
+        let mask = match component.role {
+            Role::LastLayer | Role::Band => backdrops.next().copied().flatten(),
+            Role::Ground => masks.ground,
+            Role::Billboard => billboards.next(),
+        };
+        seen.push(mask.map_or_else(|| Grid::filled(IVec2::ZERO, UVec2::ZERO, 0), boxed));
+    }
+    let by = |role: Role| (0..seen.len()).filter(move |&index| scene.components[index].role == role);
+    let backdrops = std::iter::once(0).chain(by(Role::Band));
+    let rest = backdrops.zip(&masks.backdrops).find(|(_, mask)| mask.is_none()).map_or(0, |(index, _)| index);
+    let claiming: Vec<usize> = (0..seen.len()).filter(|&index| index != rest).collect();
+    let billboards: Vec<usize> = by(Role::Billboard).collect();
+    let nearest_backdrop = by(Role::Band).last().unwrap_or(0);
+    let ground = scene.ground();
+    let code = |grid: &Grid<u8>, pixel: IVec2| u32::from(grid.get(pixel).unwrap_or(0));
+
+    // What is left of the ground where no point of the ground's plane is seen goes to the backdrop.
+    let on_ground = |pixel: IVec2| ground.is_some_and(|index| meets(scene, index, pixel));
+    let leftover = Grid::from_fn(IVec2::ZERO, size, |pixel| {
+        let claimed: u32 = claiming.iter().map(|&index| code(&seen[index], pixel)).sum();
+        let at = pixel.as_uvec2();
+        let water = match masks.water {
+            _ if is_above_contact(scene, rest, pixel) => 0,
+            Some(mask) => u32::from(dusted(mask.get(at.x, at.y))),
+            None => 255,
+        };
+        255_u32.saturating_sub(claimed + water) as u8
+    });
+    let lost_ground = Grid::from_fn(IVec2::ZERO, size, |pixel| match ground {
+        Some(index) if !on_ground(pixel) => seen[index].get(pixel).unwrap_or(0),
+        _ => 0,
+    });
+    // Antialiased masks leave slivers between them everywhere; only what somewhere near is mostly free hangs under the
+    // contact line.
+    let near = |grid: &Grid<u8>, pixel: IVec2| {
+        (-1..=1)
+            .flat_map(|dy| (-1..=1).map(move |dx| IVec2::new(dx, dy)))
+            .any(|step| grid.get(pixel + step).unwrap_or(0) > 127)
+    };
+    let billboards_at = |pixel: IVec2| billboards.iter().map(|&index| code(&seen[index], pixel)).sum::<u32>();
+    let rest_seen = Grid::from_fn(IVec2::ZERO, size, |pixel| {
+        if is_above_contact(scene, rest, pixel) { leftover.get(pixel).unwrap_or(0) } else { 0 }
+    });
+    let hanging = Grid::from_fn(IVec2::ZERO, size, |pixel| {
+        let below = !is_above_contact(scene, rest, pixel);
+        let mut share = 0;
+        if below && near(&leftover, pixel) {
+            share += code(&leftover, pixel);
+        }
+        if near(&lost_ground, pixel) {
+            share += code(&lost_ground, pixel);
+        }
+        share.min(255) as u8
+    });
+    if let Some(index) = ground {
+        seen[index] = Grid::from_fn(IVec2::ZERO, size, |pixel| {
+            let own = if on_ground(pixel) { code(&seen[index], pixel) } else { 0 };
+            own.min(255_u32.saturating_sub(billboards_at(pixel))) as u8
+        });
+    }
+    seen[rest] = rest_seen;
+    let caught = &seen[nearest_backdrop];
+    seen[nearest_backdrop] = Grid::from_fn(IVec2::ZERO, size, |pixel| {
+        (code(caught, pixel) + code(&hanging, pixel)).min(255) as u8
+    });
+    seen
+}
+
+/// Coverage of every component in the maps' frame, guessed where something nearer hides it.
+///
+/// `order` is that of the first view, near to far. The last layer covers everything above its contact line.
+pub(super) fn completed(
+    scene: &TourScene,
+    order: &[usize],
+    seen: &[Grid<u8>],
+    above: &Grid<bool>,
+) -> Vec<Grid<u8>> {
+    let size = scene.camera.intrinsics.size;
+    let mut alpha = seen.to_vec();
+    let mut hidden: Grid<u8> = Grid::filled(IVec2::ZERO, size, 0);
+    for &index in order {
+        let own = &seen[index];
+        let whole = match scene.components[index].role {
+            Role::Billboard => {
+                behind(own, &hidden, own.origin, own.size, |pixel| is_above_contact(scene, index, pixel))
+            }
+            Role::Ground => behind(own, &hidden, IVec2::ZERO, size, |pixel| meets(scene, index, pixel)),
+            Role::Band | Role::LastLayer => behind(own, &hidden, IVec2::ZERO, size, |_| true),
+        };
+        alpha[index] = match scene.components[index].role {
+            Role::Billboard => beyond_border(&whole, size),
+            Role::Ground => whole,
+            Role::Band => across(&whole, size),
+            Role::LastLayer => Grid::from_fn(IVec2::ZERO, size, |pixel| {
+                if above.get(pixel).unwrap_or(true) { 255 } else { whole.get(pixel).unwrap_or(0) }
+            }),
+        };
+        for cell in 0..own.cells.len() {
+            if let Some(at) = hidden.index(own.pixel(cell)) {
+                hidden.cells[at] = hidden.cells[at].saturating_add(own.cells[cell]);
+            }
+        }
+    }
+    alpha
+}
+
+/// Whether a pixel's ray meets a component's plane within its bounds.
+fn meets(scene: &TourScene, index: usize, pixel: IVec2) -> bool {
+    let ray = scene.camera.ray(PicturePoint::pixel_center(pixel.x.into(), pixel.y.into()));
+    scene.components[index].surface.meet(ray).is_some()
+}
+
+/// A component's coverage in a box of the picture, guessed wherever `hidden` covers it and `may` allows: its border
+/// goes on as a membrane of signed distances says, so that a straight one stays straight.
+fn behind(
+    own: &Grid<u8>,
+    hidden: &Grid<u8>,
+    origin: IVec2,
+    extent: UVec2,
+    may: impl Fn(IVec2) -> bool + Sync,
+) -> Grid<u8> {
+    let code = |grid: &Grid<u8>, pixel: IVec2| u32::from(grid.get(pixel).unwrap_or(0));
+    let states = Grid::from_fn(origin, extent, |pixel| {
+        let known = code(hidden, pixel) < HIDDEN && pixel.cmpge(IVec2::ZERO).all();
+        (known, code(own, pixel) > 127)
+    });
+    let known: Vec<f32> = states.cells.iter().map(|(known, _)| f32::from(u8::from(*known))).collect();
+    if known.iter().all(|&known| known == 1.0) {
+        return Grid::from_fn(origin, extent, |pixel| own.get(pixel).unwrap_or(0));
+    }
+    let width = extent.x as usize;
+    let to = |inside: bool| distances(width, &states.cells, |(known, covered)| known && covered == inside);
+    let (to_covered, to_free) = (to(true), to(false));
+    let mut signed: Vec<[f32; 1]> =
+        to_free.iter().zip(&to_covered).map(|(free, covered)| [free - covered]).collect();
+    membrane(width, &mut signed, &known);
+    Grid::from_fn(origin, extent, |pixel| {
+        let cell = (pixel - origin).as_uvec2();
+        let cell = cell.y as usize * width + cell.x as usize;
+        if known[cell] == 1.0 || !may(pixel) {
+            return own.get(pixel).unwrap_or(0);
+        }
+        (255.0 * (0.5 * signed[cell][0] + 0.5).clamp(0.0, 1.0)).round() as u8
+    })
+}
+
+/// Distance of every cell to the nearest one that `is`, in pixels along rows, columns and diagonals; at most
+/// [`FARTHEST`].
+fn distances<T: Copy>(width: usize, cells: &[T], is: impl Fn(T) -> bool) -> Vec<f32> {
+    let mut far: Vec<f32> = cells.iter().map(|&cell| if is(cell) { 0.0 } else { FARTHEST }).collect();
+    let mut take = |cell: usize, from: Option<usize>, step: f32| {
+        if let Some(from) = from {
+            far[cell] = far[cell].min(far[from] + step);
+        }
+    };
+    let diagonal = std::f32::consts::SQRT_2;
+    for cell in 0..cells.len() {
+        let (left, right) = (cell % width > 0, cell % width + 1 < width);
+        let above = cell.checked_sub(width);
+        take(cell, above, 1.0);
+        take(cell, left.then(|| cell - 1), 1.0);
+        take(cell, above.filter(|_| left).map(|above| above - 1), diagonal);
+        take(cell, above.filter(|_| right).map(|above| above + 1), diagonal);
+    }
+    for cell in (0..cells.len()).rev() {
+        let (left, right) = (cell % width > 0, cell % width + 1 < width);
+        let below = Some(cell + width).filter(|&below| below < cells.len());
+        take(cell, below, 1.0);
+        take(cell, right.then_some(cell + 1), 1.0);
+        take(cell, below.filter(|_| left).map(|below| below - 1), diagonal);
+        take(cell, below.filter(|_| right).map(|below| below + 1), diagonal);
+    }
+    far
+}
+
+/// Distances are told up to here, pixels: a border is guessed from what is nearer.
+const FARTHEST: f32 = 64.0;
+
+/// A band's coverage across the whole frame: folded in from the sides, its uppermost row prolonged upwards.
+fn across(inside: &Grid<u8>, picture: UVec2) -> Grid<u8> {
+    let (low, high) = frame(picture);
+    let width = picture.x as usize;
+    let rows = inside.cells.chunks(width.max(1));
+    let covered: Vec<usize> =
+        rows.enumerate().filter(|(_, row)| row.iter().any(|&c| c > 0)).map(|(y, _)| y).collect();
+    let (Some(&first), Some(&last)) = (covered.first(), covered.last()) else {
+        return Grid::filled(IVec2::ZERO, UVec2::ONE, 0);
+    };
+    // Free rows above and below, or sampling would prolong the coverage without end.
+    let top = if first == 0 { low.y } else { first as i32 - 1 };
+    let bottom = (last as i32 + 2 + margin_px(picture)).min(high.y);
+    let extent = UVec2::new((high.x - low.x) as u32, (bottom - top) as u32);
+    Grid::from_fn(IVec2::new(low.x, top), extent, |pixel| {
+        let beside = folded(pixel, picture).x;
+        let row = if pixel.y < 0 { 0 } else { pixel.y };
+        inside.get(IVec2::new(beside, row)).unwrap_or(0)
+    })
+}
+
+/// A billboard's coverage with what the picture's left, right and upper border cut off folded in, as far as maps reach.
+fn beyond_border(inside: &Grid<u8>, picture: UVec2) -> Grid<u8> {
+    let (least, most) = frame(picture);
+    let (mut low, mut high) = (inside.origin, inside.origin + inside.size.as_ivec2());
+    let width = picture.x as i32;
+    let touches = |column: i32| {
+        (low.y..high.y).any(|y| inside.get(IVec2::new(column, y)).is_some_and(|covered| covered > 0))
+    };
+    let (left, right) = (touches(0), touches(width - 1));
+    let top = (low.x..high.x).any(|x| inside.get(IVec2::new(x, 0)).is_some_and(|covered| covered > 0));
+    // One free column ends the fold, or sampling would prolong it without end.
+    if left {
+        low.x = least.x;
+    }
+    if right {
+        high.x = most.x;
+    }
+    if top {
+        low.y = least.y;
+    }
+    Grid::from_fn(low, (high - low).as_uvec2(), |pixel| {
+        let end = (left && pixel.x == low.x) || (right && pixel.x == high.x - 1) || (top && pixel.y == low.y);
+        let beside = folded(pixel, picture).x;
+        let row = if top && pixel.y < 0 { folded(pixel, picture).y } else { pixel.y };
+        if end { 0 } else { inside.get(IVec2::new(beside, row)).unwrap_or(0) }
+    })
+}
+
+/// The part of a mask that is not empty, with a border of empty pixels that may lie outside the picture: one at least,
+/// and below room for what its body shows between the mask and the contact line.
+fn boxed(mask: &Mask) -> Grid<u8> {
+    let Some(bounds) = mask.bounds() else {
+        return Grid::filled(IVec2::ZERO, UVec2::ONE, 0);
+    };
+    let inside = mask.size().as_ivec2();
+    let room = UVec2::new(2, 1 + margin_px(mask.size()) as u32);
+    Grid::from_fn(bounds.min.as_ivec2() - 1, bounds.size() + room, |pixel| {
+        let within = pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(inside).all();
+        if within { dusted(mask.get(pixel.x as u32, pixel.y as u32)) } else { 0 }
+    })
+}
+
+fn dusted(coverage: u8) -> u8 {
+    match coverage {
+        0..Mask::DUST => 0,
+        _ if coverage > 255 - Mask::DUST => 255,
+        _ => coverage,
+    }
+}
