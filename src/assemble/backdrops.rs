@@ -4,7 +4,7 @@
 //! background, where the tour says where it stands or has no bands; else the sky.
 
 use super::TourSource;
-use crate::maps::TourMasks;
+use crate::picture::Mask;
 use crate::scene::BackdropPlace;
 use crate::scene::BackdropPlan;
 use crate::scene::Role;
@@ -61,27 +61,19 @@ pub(super) fn backdrops(
     found
 }
 
-impl TourSource {
-    /// The masks of the scene that was built from this tour.
-    #[must_use]
-    pub fn masks(&self, scene: &TourScene) -> TourMasks<'_> {
-        let band = |name: &str| {
-            let index = self.tour.background.bands.iter().position(|band| band.name == name)?;
-            self.bands.get(index)?.as_ref()
-        };
-        let backdrops = scene
-            .components
-            .iter()
-            .filter(|component| matches!(component.role, Role::LastLayer | Role::Band))
-            .map(|component| {
-                band(&component.name).or_else(|| self.sky.as_ref().filter(|_| component.name == "sky"))
-            })
-            .collect();
-        TourMasks {
-            water: self.water.as_ref(),
-            ground: self.ground.as_ref(),
-            backdrops,
-            billboards: &self.objects,
-        }
-    }
+/// Visible coverage of a scene's backdrops, in the scene's order; `None` for the one that shows wherever nothing else
+/// does.
+pub(super) fn masks<'a>(source: &'a TourSource, scene: &TourScene) -> Vec<Option<&'a Mask>> {
+    let band = |name: &str| {
+        let index = source.tour.background.bands.iter().position(|band| band.name == name)?;
+        source.bands.get(index)?.as_ref()
+    };
+    scene
+        .components
+        .iter()
+        .filter(|component| matches!(component.role, Role::LastLayer | Role::Band))
+        .map(|component| {
+            band(&component.name).or_else(|| source.sky.as_ref().filter(|_| component.name == "sky"))
+        })
+        .collect()
 }

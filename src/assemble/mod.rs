@@ -2,25 +2,30 @@
 
 mod annotate;
 mod backdrops;
+mod bank;
 mod source;
 
 pub use annotate::annotations;
-pub use source::TourSource;
+pub use source::{TourOnDisk, TourSource};
 
-use crate::scene::BackdropPlan;
-
+use crate::maps::MapOptions;
 use crate::maps::Maps;
+use crate::maps::TourMasks;
+use crate::picture::Mask;
 use crate::scene::BillboardPlan;
 use crate::scene::ScenePlan;
 use crate::scene::TourScene;
 use crate::solve::Solution;
 use crate::solve::SolveError;
+use crate::tour::Region;
 
 /// A tour ready to be looked at.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct AssembledTour {
     /// What was solved, and how surely.
     pub solution: Solution,
+    /// What the scene was built from.
+    pub plan: ScenePlan,
     /// The planes.
     pub scene: TourScene,
     /// Their maps.
@@ -41,6 +46,68 @@ pub enum AssembleError {
     Cancelled,
 }
 
+/// A tour in meters: what is known before any map is built.
+#[derive(Clone, Debug)]
+pub struct PlacedTour {
+    /// What was solved, and how surely.
+    pub solution: Solution,
+    /// What the scene was built from.
+    pub plan: ScenePlan,
+    /// The planes.
+    pub scene: TourScene,
+    /// What had to be moved or guessed, in words.
+    pub remarks: Vec<String>,
+    /// The ground without its banks.
+    level_ground: Option<Mask>,
+    /// The ground's banks, which follow the objects among the scene's billboards.
+    banks: Vec<Mask>,
+}
+
+/// Solves a tour and places its planes.
+///
+/// # Errors
+///
+/// This returns an error when the marks do not fix a camera.
+pub fn place(source: &TourSource) -> Result<PlacedTour, SolveError> {
+    let solution = crate::solve::solve(&annotations(source))?;
+    let mut remarks = Vec::new();
+    let mut plan = plan(source, &solution, &mut remarks);
+    let height = solution.parameters.ground_height;
+    let (banks, level_ground) = match (&source.ground, &source.water) {
+        (Some(ground), Some(water)) if height > LEAST_BANK => {
+            let (banks, level) = bank::banks(&plan.camera, height, ground, water);
+            (banks, Some(level))
+        }
+        (ground, _) => (Vec::new(), ground.clone()),
+    };
+    let (walls, banks): (Vec<_>, Vec<_>) = banks.into_iter().map(|bank| (bank.plan, bank.mask)).unzip();
+    plan.billboards.extend(walls);
+    let (scene, more) = crate::scene::build(&plan);
+    remarks.extend(more);
+    remarks.extend(source.notes.iter().cloned());
+    Ok(PlacedTour { solution, plan, scene, remarks, level_ground, banks })
+}
+
+/// Ground lower than this above the water has no face worth a wall, meters.
+const LEAST_BANK: f64 = 0.05;
+
+impl PlacedTour {
+    /// The masks that the tour's maps are built from.
+    #[must_use]
+    pub fn masks<'a>(&'a self, source: &'a TourSource) -> TourMasks<'a> {
+        let objects = source.tour.objects.iter();
+        let outlined = objects.map(|object| matches!(object.outline, Region::Polygon(_)));
+        TourMasks {
+            water: source.water.as_ref(),
+            ground: self.level_ground.as_ref(),
+            backdrops: backdrops::masks(source, &self.scene),
+            billboards: source.objects.iter().chain(&self.banks).collect(),
+            // A bank's upper edge is a line that was computed.
+            outlined: outlined.chain(self.banks.iter().map(|_| false)).collect(),
+        }
+    }
+}
+
 /// Runs all stages; `progress` is told the share done, 0–1, and the step, and stops the work by returning `false`.
 ///
 /// The same source gives the same result, to the bit, whatever the number of cores.
@@ -50,34 +117,30 @@ pub enum AssembleError {
 /// This returns an error when the picture cannot be solved, or when the work was cancelled.
 pub fn assemble(
     source: &TourSource,
+    options: &MapOptions,
     progress: &dyn Fn(f32, &str) -> bool,
 ) -> Result<AssembledTour, AssembleError> {
     if !progress(0.0, "solving") {
         return Err(AssembleError::Cancelled);
     }
-    let solution = crate::solve::solve(&annotations(source))?;
-    let mut remarks = Vec::new();
-    let backdrops = backdrops::backdrops(source, &solution.parameters, &mut remarks);
-    let plan = plan(source, &solution, backdrops);
-    let (scene, more) = crate::scene::build(&plan);
-    remarks.extend(more);
-    remarks.extend(source.notes.iter().cloned());
-    let maps = Maps::build(&scene, &source.picture, &source.masks(&scene), &|share, step| {
+    let placed = place(source)?;
+    let maps = Maps::build(&placed.scene, &source.picture, &placed.masks(source), options, &|share, step| {
         progress(0.1 + 0.9 * share, step)
     })
     .ok_or(AssembleError::Cancelled)?;
-    Ok(AssembledTour { solution, scene, maps, remarks })
+    let PlacedTour { solution, plan, scene, remarks, .. } = placed;
+    Ok(AssembledTour { solution, plan, scene, maps, remarks })
 }
 
-/// What the scene is built from.
-fn plan(source: &TourSource, solution: &Solution, backdrops: Vec<BackdropPlan>) -> ScenePlan {
+/// What the scene is built from, but for the ground's banks.
+fn plan(source: &TourSource, solution: &Solution, remarks: &mut Vec<String>) -> ScenePlan {
     let tour = &source.tour;
     let parameters = &solution.parameters;
     ScenePlan {
         camera: parameters.camera(source.picture.size()),
         water: tour.water.is_some(),
         ground_height: tour.ground.as_ref().map(|_| parameters.ground_height),
-        backdrops,
+        backdrops: backdrops::backdrops(source, parameters, remarks),
         billboards: tour
             .objects
             .iter()

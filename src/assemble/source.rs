@@ -1,6 +1,6 @@
 //! A tour with its files read: picture and masks decoded, checked against each other, cropped.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::{DVec2, UVec2};
 
@@ -185,6 +185,27 @@ impl TourSource {
     ///
     /// All problems of the document, or else all of its files; each names the file.
     pub fn open(path: &Path) -> Result<Self, Problems> {
+        TourOnDisk::open(path)?.source()
+    }
+}
+
+/// A tour file of the file system, read and checked; its picture and masks are not read yet.
+#[derive(Clone, Debug)]
+pub struct TourOnDisk {
+    /// The tour as its file says it.
+    pub tour: Tour,
+    name: String,
+    text: String,
+    folder: PathBuf,
+}
+
+impl TourOnDisk {
+    /// Reads and checks the document.
+    ///
+    /// # Errors
+    ///
+    /// All problems of the document; each names the file.
+    pub fn open(path: &Path) -> Result<Self, Problems> {
         let name = path.display().to_string();
         let text = std::fs::read_to_string(path).map_err(|error| {
             Problems::from(Problem::new(
@@ -197,11 +218,27 @@ impl TourSource {
         })?;
         let tour = Tour::read(&text).map_err(|problems| problems.with_file(&name))?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let inside = |file: &RelativePath| {
-            let path = file.in_folder(&folder);
-            read_inside(&folder, &path).map_err(|error| format!("{}: {error}", path.display()))
-        };
-        Self::read(&tour, &inside).map_err(|problems| problems.located_in(&text).with_file(&name))
+        Ok(Self { tour, name, text, folder })
+    }
+
+    /// The bytes of a file that the tour names.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be read, with its path.
+    pub fn read(&self, file: &RelativePath) -> Result<Vec<u8>, String> {
+        let path = file.in_folder(&self.folder);
+        read_inside(&self.folder, &path).map_err(|error| format!("{}: {error}", path.display()))
+    }
+
+    /// The tour with its picture and masks.
+    ///
+    /// # Errors
+    ///
+    /// All problems of its files; each names the tour's file.
+    pub fn source(&self) -> Result<TourSource, Problems> {
+        TourSource::read(&self.tour, &|file| self.read(file))
+            .map_err(|problems| problems.located_in(&self.text).with_file(&self.name))
     }
 }
 

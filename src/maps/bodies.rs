@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use super::Grid;
 use super::coverage::{Coverage, grow};
 use super::mirror::mirrored;
-use super::zones::{Zone, fringe, seen_owner};
+use super::visible::meets;
+use super::zones::{Zones, fringe, seen_owner};
 use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::scene::Role;
@@ -28,11 +29,12 @@ pub(super) fn take_in_bodies(
     scene: &TourScene,
     picture: &Picture,
     coverage: &mut Coverage,
-    zones: &mut [Option<Zone>],
+    zones: &mut Zones,
 ) -> Grid<u8> {
     let size = picture.size();
     let owner = seen_owner(scene, coverage, zones);
     let reach = (margin_px(size) - fringe(size) - 1).max(0);
+    let by_billboard = covered_by_billboards(scene, zones);
     for (index, zone) in zones.iter_mut().enumerate() {
         let Some(zone) = zone.as_mut().filter(|_| scene.components[index].role == Role::Billboard) else {
             continue;
@@ -53,8 +55,8 @@ pub(super) fn take_in_bodies(
                 for step in [IVec2::X, IVec2::Y, IVec2::NEG_X, IVec2::NEG_Y] {
                     let pixel = pixel + step;
                     // Undecided are what the water shows of a backdrop, and the mirror image's own fringe.
-                    let undecided = is_backdrop(scene, owner.get(pixel))
-                        || (coverage.water.get(pixel) == Some(true) && zone.grown.get(pixel) == Some(1));
+                    let undecided = coverage.water.get(pixel) == Some(true)
+                        && (by_billboard.get(pixel) == Some(false) || zone.grown.get(pixel) == Some(1));
                     if let Some(cell) = asked.index(pixel).filter(|&cell| undecided && !asked.cells[cell]) {
                         asked.cells[cell] = true;
                         beside.push(pixel);
@@ -65,7 +67,7 @@ pub(super) fn take_in_bodies(
             for &pixel in &edge {
                 if below(pixel) {
                     set(&mut zone.coverage, pixel);
-                } else {
+                } else if meets(scene, index, pixel) {
                     coverage.give(index, pixel);
                 }
             }
@@ -76,8 +78,22 @@ pub(super) fn take_in_bodies(
     seen_owner(scene, coverage, zones)
 }
 
+/// Pixels of the picture that a billboard's mirror image or its fringe covers.
+fn covered_by_billboards(scene: &TourScene, zones: &Zones) -> Grid<bool> {
+    let mut covered = Grid::filled(IVec2::ZERO, scene.camera.intrinsics.size, false);
+    for (component, zone) in scene.components.iter().zip(zones.iter()) {
+        let Some(zone) = zone.as_ref().filter(|_| component.role == Role::Billboard) else { continue };
+        for (cell, _) in zone.grown.cells.iter().enumerate().filter(|(_, covers)| **covers > 0) {
+            if let Some(at) = covered.index(zone.grown.pixel(cell)) {
+                covered.cells[at] = true;
+            }
+        }
+    }
+    covered
+}
+
 /// Pixels of the picture that lie within a rectangle's margin of a billboard or of its mirror image.
-pub(super) fn by_body(scene: &TourScene, coverage: &Coverage, zones: &[Option<Zone>]) -> Grid<bool> {
+pub(super) fn by_body(scene: &TourScene, coverage: &Coverage, zones: &Zones) -> Grid<bool> {
     let size = scene.camera.intrinsics.size;
     let margin = margin_px(size);
     let mut by_body = Grid::filled(IVec2::ZERO, size, false);

@@ -26,7 +26,9 @@ pub struct TourMasks<'a> {
     /// wherever nothing else does.
     pub backdrops: Vec<Option<&'a Mask>>,
     /// Visible coverage of each billboard, in the scene's order.
-    pub billboards: &'a [Mask],
+    pub billboards: Vec<&'a Mask>,
+    /// Which billboards were outlined by hand: the picture shows where their edges really are.
+    pub outlined: Vec<bool>,
 }
 
 /// Who covers what.
@@ -48,7 +50,7 @@ pub(super) struct Coverage {
 const FRINGE: f64 = 0.001;
 
 /// A pixel shows one component alone from this coverage on.
-const ALONE: u8 = 250;
+pub(super) const ALONE: u8 = 250;
 
 impl Coverage {
     pub(super) fn of(scene: &TourScene, masks: &TourMasks) -> Self {

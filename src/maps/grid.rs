@@ -3,7 +3,7 @@
 //! Cell (0, 0) of a grid is the picture's pixel `origin`; a grid may reach beyond the picture. Nothing here resamples:
 //! a cell is a pixel.
 
-use glam::{IVec2, UVec2};
+use glam::{DVec2, IVec2, UVec2, Vec2, Vec4};
 use rayon::prelude::*;
 
 use crate::picture::PicturePoint;
@@ -76,7 +76,7 @@ impl<T: Copy + Send + Sync> Grid<T> {
     #[must_use]
     fn around(&self, point: PicturePoint) -> [(T, f32); 4] {
         let limit = self.size.as_dvec2();
-        let at = (point.0 - self.origin.as_dvec2()).clamp(glam::DVec2::splat(0.5), limit - 0.5) - 0.5;
+        let at = (point.0 - self.origin.as_dvec2()).clamp(DVec2::splat(0.5), limit - 0.5) - 0.5;
         let floor = at.floor();
         let part = (at - floor).as_vec2();
         let cell = floor.as_ivec2();
@@ -90,20 +90,41 @@ impl<T: Copy + Send + Sync> Grid<T> {
 }
 
 impl Layer {
-    /// Linear-light color and straight coverage at a point, filtered as a GPU does: codes are decoded first.
+    /// Linear-light color and straight coverage at a point: Catmull and Rom's cubic, kept within what the four nearest
+    /// texels span, so that nothing rings. The border is prolonged. Twin of `sharp` in `tour.wgsl`.
     #[must_use]
     pub fn sample(&self, point: PicturePoint) -> [f32; 4] {
-        let mut sum = [0.0; 4];
-        for (texel, weight) in self.around(snap(point)) {
-            if weight > 0.0 {
-                for channel in 0..3 {
-                    sum[channel] += weight * linear_from_srgb(texel[channel]);
-                }
-                sum[3] += weight * f32::from(texel[3]) / 255.0;
+        let inner = self.size.as_dvec2() - 0.5;
+        let at = (snap(point).0 - self.origin.as_dvec2()).clamp(DVec2::splat(0.5), inner) - 0.5;
+        let (corner, part) = (at.floor().as_ivec2(), at.fract().as_vec2());
+        let texel = |x: i32, y: i32| {
+            let [r, g, b, a] = self.clamped(corner + IVec2::new(x, y));
+            Vec4::new(linear_from_srgb(r), linear_from_srgb(g), linear_from_srgb(b), f32::from(a) / 255.0)
+        };
+        if part == Vec2::ZERO {
+            return texel(0, 0).to_array();
+        }
+        let (across, down) = (cubic(part.x), cubic(part.y));
+        let mut sum = Vec4::ZERO;
+        for (y, down) in (-1..).zip(down) {
+            for (x, across) in (-1..).zip(across) {
+                sum += across * down * texel(x, y);
             }
         }
-        sum
+        let near = [texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)];
+        let [low, high] = [Vec4::min, Vec4::max].map(|pick| near.into_iter().fold(near[0], pick));
+        sum.clamp(low, high).to_array()
     }
+}
+
+/// Catmull and Rom's weights of the four texels around a place `t`, 0–1, between the middle two.
+fn cubic(t: f32) -> [f32; 4] {
+    [
+        t * (-0.5 + t * (1.0 - 0.5 * t)),
+        1.0 + t * t * (-2.5 + 1.5 * t),
+        t * (0.5 + t * (2.0 - 1.5 * t)),
+        t * t * (-0.5 + 0.5 * t),
+    ]
 }
 
 impl Grid<[f32; 3]> {
@@ -125,7 +146,7 @@ impl Grid<u8> {
     #[must_use]
     pub fn coverage(&self, point: PicturePoint) -> f32 {
         let at = point.0 - self.origin.as_dvec2();
-        if at.cmplt(glam::DVec2::splat(-0.5)).any() || at.cmpgt(self.size.as_dvec2() + 0.5).any() {
+        if at.cmplt(DVec2::splat(-0.5)).any() || at.cmpgt(self.size.as_dvec2() + 0.5).any() {
             return 0.0;
         }
         self.around(point).iter().map(|&(value, weight)| weight * f32::from(value) / 255.0).sum()

@@ -38,7 +38,7 @@ pub(super) fn lifted(target: [u8; 3], behind: [f32; 3], alpha: u8) -> [u8; 4] {
     // A dark pixel under a bright, thin layer may lie between two codes: a little more coverage makes the steps finer.
     let first = (needed * 255.0).ceil().clamp(1.0, 255.0) as u8;
     let mut best = (f32::INFINITY, [0; 4]);
-    for stored in first..=first.saturating_add(MOST_STEPS) {
+    for stored in first..=255 {
         let a = f32::from(stored) / 255.0;
         let (mut texel, mut worst) = ([0, 0, 0, stored], 0.0_f32);
         for c in 0..3 {
@@ -58,9 +58,6 @@ pub(super) fn lifted(target: [u8; 3], behind: [f32; 3], alpha: u8) -> [u8; 4] {
 
 /// A blend this near to its target, in codes, is it on any device, whatever the rounding.
 const CLOSE: f32 = 0.35;
-
-/// Steps of 1/255 by which coverage is raised at most for the sake of finer steps.
-const MOST_STEPS: u8 = 24;
 
 /// The code whose blend comes nearest to `target`, and how far from it that is, in codes.
 fn nearest_code(wanted: f32, target: u8, behind: f32, a: f32) -> (u8, f32) {

@@ -19,8 +19,7 @@ pub(super) struct Mirrored {
     pub grazing: f32,
 }
 
-/// What `surface` (unbounded) would show in the water at `pixel`; `None` where no water is seen or the mirrored ray
-/// passes it by.
+/// What `surface` would show in the water at `pixel`; `None` where no water is seen or the mirrored ray passes it by.
 #[must_use]
 pub(super) fn mirrored(scene: &TourScene, surface: &Surface, pixel: PicturePoint) -> Option<Mirrored> {
     let ray = scene.camera.ray(pixel);
@@ -32,7 +31,8 @@ pub(super) fn mirrored(scene: &TourScene, surface: &Surface, pixel: PicturePoint
     let (parameter, direct) = match surface {
         Surface::Wall(wall) => {
             let t = wall.meet_plane(ray).filter(|&t| t >= to_water)?;
-            (t, scene.camera.project(mirror(ray.at(t)))?)
+            let point = mirror(ray.at(t));
+            (t, scene.camera.project(point).filter(|_| wall.contains(point))?)
         }
         Surface::Level(level) => {
             let t = (-level.height - ray.origin.y) / ray.direction.y;

@@ -7,10 +7,16 @@
 mod beyond;
 mod bodies;
 mod coverage;
+mod cutout;
+mod distance;
 mod fill;
 mod grid;
+mod holes;
+mod inpaint;
 mod lift;
+mod matte;
 mod mirror;
+mod paper;
 mod reflection;
 mod texture;
 mod tint;
@@ -23,8 +29,10 @@ pub use reflection::Origin;
 pub use tint::{Tint, fresnel};
 
 use coverage::Coverage;
+use holes::HoleInput;
 use reflection::ReflectionInput;
-use zones::Zone;
+
+use serde::{Deserialize, Serialize};
 
 use crate::picture::Picture;
 use crate::scene::TourScene;
@@ -32,8 +40,49 @@ use crate::scene::TourScene;
 /// A mean lift above this promises a halo: the fill behind does not match (notes §3.4).
 pub const HALO_LIFT: f32 = 0.15;
 
+/// How maps are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct MapOptions {
+    /// How holes are filled.
+    pub fill: Fill,
+    /// What reflection maps are made of.
+    pub method: Method,
+    /// Whether what lies beyond the picture's border is made up of the picture's own matter, or only folded in.
+    pub paint_beyond: bool,
+}
+
+/// What reflection maps are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Method {
+    /// What the water shows; what it does not show is predicted from the direct view, and the other way round.
+    Ours,
+    /// The picture's water, filled where something stands before it, or a random place of it outside the picture: the
+    /// paper's, to compare with.
+    Paper,
+}
+
+/// How holes are filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Fill {
+    /// By a smooth mean of what is around: at once, and blurred.
+    Smooth,
+    /// By patches of what the same component shows elsewhere: seconds, and sharp.
+    Patches,
+}
+
+impl Default for MapOptions {
+    fn default() -> Self {
+        Self { fill: Fill::Patches, method: Method::Ours, paint_beyond: true }
+    }
+}
+
+impl MapOptions {
+    /// The fastest: for previews.
+    pub const PREVIEW: Self = Self { fill: Fill::Smooth, method: Method::Ours, paint_beyond: false };
+}
+
 /// The maps of one component.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ComponentMaps {
     /// What it shows directly, with its coverage.
     pub texture: Layer,
@@ -46,7 +95,7 @@ pub struct ComponentMaps {
 }
 
 /// Shares of a reflection map's part inside the picture by origin, 0–1; they sum to 1, or to 0 for an empty map.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OriginShares {
     /// The picture's water shows it.
     pub seen: f32,
@@ -57,7 +106,7 @@ pub struct OriginShares {
 }
 
 /// Every image that the scene's components need, in the scene's order.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Maps {
     /// One entry a component.
     pub components: Vec<ComponentMaps>,
@@ -75,22 +124,39 @@ impl Maps {
         scene: &TourScene,
         picture: &Picture,
         masks: &TourMasks,
+        options: &MapOptions,
         progress: &dyn Fn(f32, &str) -> bool,
     ) -> Option<Self> {
         let step = |share: f32, what: &str| progress(share, what).then_some(());
-        step(0.0, "who covers what")?;
+        step(0.0, "cutting out")?;
+        let cut_out = cutout::cut_out(scene, picture, masks, &|share, what| progress(0.05 * share, what))?;
+        let masks = &TourMasks { billboards: cut_out.masks.iter().collect(), ..masks.clone() };
+        step(0.05, "who covers what")?;
         let mut coverage = Coverage::of(scene, masks);
-        step(0.2, "what the water mirrors")?;
+        step(0.1, "what the water mirrors")?;
         let mut zones = zones::zones(scene, &coverage);
         let owner = bodies::take_in_bodies(scene, picture, &mut coverage, &mut zones);
         let tint = reflection::fit_tint(scene, picture, &coverage, &owner);
-        step(0.4, "filling what is hidden")?;
         let count = scene.components.len();
-        let direct: Vec<_> = (0..count)
-            .map(|index| texture::filled_colors(scene, picture, &coverage, &tint, &owner, index))
-            .collect();
+        let input = HoleInput {
+            scene,
+            picture,
+            coverage: &coverage,
+            cut_out: &cut_out.colors,
+            owner: &owner,
+            tint: &tint,
+            options,
+        };
+        let direct = (0..count)
+            .map(|index| {
+                let what = format!("what is behind and beyond: {}", scene.components[index].name);
+                let share = |share: f32| 0.15 + 0.65 * (index as f32 + share) / count as f32;
+                step(share(0.0), &what)?;
+                holes::filled_colors(&input, index, &|done| progress(share(done), &what))
+            })
+            .collect::<Option<Vec<_>>>()?;
         let by_body = bodies::by_body(scene, &coverage, &zones);
-        step(0.6, "reflection maps")?;
+        step(0.8, "reflection maps")?;
         let mut reflections = Vec::with_capacity(count);
         let mut origins = Vec::with_capacity(count);
         for index in 0..count {
@@ -106,6 +172,7 @@ impl Maps {
                         tint: &tint,
                         by_body: &by_body,
                         direct: &direct[index],
+                        options,
                     };
                     reflection::reflection_map(&input, index)
                 })
@@ -113,7 +180,7 @@ impl Maps {
             reflections.push(layer);
             origins.push(origin.unwrap_or_default());
         }
-        step(0.8, "laying the layers over each other")?;
+        step(0.9, "laying the layers over each other")?;
         reflection::lift_reflections(scene, picture, &coverage, &zones, &mut reflections);
         let mut textures: Vec<_> = (0..count)
             .map(|index| texture::texture_map(scene, picture, &coverage, &direct[index], index))

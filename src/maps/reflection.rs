@@ -9,11 +9,12 @@ use rayon::prelude::*;
 
 use super::beyond::frame;
 use super::coverage::Coverage;
+use super::distance::distances;
 use super::fill::push_pull;
 use super::mirror::{mirrored, reflection_of};
 use super::tint::{Tint, TintSample};
-use super::zones::{Zone, stack_at};
-use super::{Grid, Layer, lift};
+use super::zones::Zones;
+use super::{Grid, Layer, MapOptions, Method, lift, paper};
 use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::picture::color::linear_from_srgb;
@@ -26,6 +27,12 @@ const TOLERANCE_CODES: [f32; 2] = [10.0, 20.0];
 
 /// Shares of agreeing texels around between which the prediction's part goes from none to all.
 const TRUST: [f32; 2] = [0.3, 0.7];
+
+/// How far up or down a mirror image may lie from where its plane says, pixels per pixel of picture width.
+const SHIFT: f32 = 0.006;
+
+/// From this distance to what is seen on, predictions are taken whole, pixels per pixel of picture width.
+const LONELY: f32 = 0.02;
 
 /// Where a texel of a reflection map came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,18 +110,24 @@ pub(super) fn backdrop_from_water(
     tint.direct(mean, (-ray.y / ray.length()) as f32)
 }
 
+/// By how many codes a color may differ from what the fitted water says and still be taken to agree.
+pub(super) fn tolerance(tint: &Tint) -> u8 {
+    (MISS_TOLERANCE * tint.error_codes).clamp(TOLERANCE_CODES[0], TOLERANCE_CODES[1]) as u8
+}
+
 /// Everything a component's reflection map is made from.
 pub(super) struct ReflectionInput<'a> {
     pub scene: &'a TourScene,
     pub picture: &'a Picture,
     pub coverage: &'a Coverage,
-    pub zones: &'a [Option<Zone>],
+    pub zones: &'a Zones,
     pub owner: &'a Grid<u8>,
     pub tint: &'a Tint,
     /// Pixels beside a billboard or its mirror image.
     pub by_body: &'a Grid<bool>,
     /// Filled direct colors of the component, linear light.
     pub direct: &'a Grid<[f32; 3]>,
+    pub options: &'a MapOptions,
 }
 
 /// A component's reflection map before the lift, and the origin of each texel.
@@ -151,7 +164,10 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
         };
         (predicted, origin)
     });
-    let unseen = unseen_colors(input, &texels);
+    let unseen = match input.options.method {
+        Method::Ours => unseen_colors(input, &texels),
+        Method::Paper => paper::unseen_colors(input, &texels),
+    };
     let layer = Layer::from_fn(origin, extent, |pixel| {
         let cell = texels.index(pixel).unwrap_or(0);
         let (_, from) = texels.cells[cell];
@@ -174,7 +190,8 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
 fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Origin)>) -> Vec<[f32; 3]> {
     let ReflectionInput { picture, tint, by_body, .. } = input;
     let width = texels.size.x as usize;
-    let tolerance = (MISS_TOLERANCE * tint.error_codes).clamp(TOLERANCE_CODES[0], TOLERANCE_CODES[1]) as u8;
+    let tolerance = tolerance(tint);
+    let reach = (SHIFT * picture.size().x as f32).round() as i32;
     // Per texel what the prediction misses, the seen color, and whether the two agree.
     let ((mut misses, mut around), agreeing): ((Vec<[f32; 3]>, Vec<[f32; 3]>), Vec<f32>) = texels
         .cells
@@ -184,12 +201,21 @@ fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Origin)>) -> 
             if *origin != Origin::Seen {
                 return (([0.0; 3], [0.0; 3]), 0.0);
             }
-            let pixel = texels.pixel(cell).as_uvec2();
-            let codes = picture.pixel(pixel.x, pixel.y);
+            let pixel = texels.pixel(cell);
+            let codes = picture.pixel(pixel.x as u32, pixel.y as u32);
             let [r, g, b] = codes.map(linear_from_srgb);
-            let agrees = (0..3).all(|c| codes[c].abs_diff(srgb_from_linear(predicted[c])) < tolerance);
-            let misses = [r - predicted[0], g - predicted[1], b - predicted[2]];
-            ((misses, [r, g, b]), f32::from(u8::from(agrees)))
+            // What stands nearer or farther than the component's plane is mirrored some pixels above or below.
+            let off = |predicted: [f32; 3]| {
+                (0..3).map(|c| codes[c].abs_diff(srgb_from_linear(predicted[c]))).max().unwrap_or(0)
+            };
+            let near = [0, -reach, reach, -reach / 2, reach / 2]
+                .iter()
+                .filter_map(|&up| texels.get(pixel + IVec2::new(0, up)))
+                .map(|(predicted, _)| predicted)
+                .find(|&predicted| off(predicted) < tolerance);
+            let from = near.unwrap_or(*predicted);
+            let misses = [r - from[0], g - from[1], b - from[2]];
+            ((misses, [r, g, b]), f32::from(u8::from(near.is_some())))
         })
         .unzip();
     let all: Vec<f32> =
@@ -207,9 +233,13 @@ fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Origin)>) -> 
     let mut agreement: Vec<[f32; 1]> = agreeing.iter().map(|&agrees| [agrees]).collect();
     push_pull(width, &mut agreement, &all);
     push_pull(width, &mut around, &seen);
+    let far = LONELY * picture.size().x as f32;
+    let from_seen = distances(width, texels.size.y as usize, |cell| all[cell] == 1.0);
     let blend = |cell: usize| -> [f32; 3] {
         let (predicted, _) = texels.cells[cell];
         let trust = ((agreement[cell][0] - TRUST[0]) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
+        // Far from all that is seen even a poor prediction says more than one color.
+        let trust = trust.max((2.0 * from_seen[cell] / far - 1.0).min(1.0));
         std::array::from_fn(|c| {
             let made = (predicted[c] + misses[cell][c]).clamp(0.0, 1.0);
             trust * made + (1.0 - trust) * around[cell][c]
@@ -223,7 +253,7 @@ pub(super) fn lift_reflections(
     scene: &TourScene,
     picture: &Picture,
     coverage: &Coverage,
-    zones: &[Option<Zone>],
+    zones: &Zones,
     layers: &mut [Option<Layer>],
 ) {
     let edits = {
@@ -232,7 +262,7 @@ pub(super) fn lift_reflections(
             if !coverage.water.get(pixel).unwrap_or(false) {
                 return None;
             }
-            let mut stack = stack_at(scene, zones, pixel);
+            let mut stack = zones.stack_at(scene, pixel);
             let nearest = stack.pop()?;
             let behind = composite(layers, &stack, pixel)?;
             let alpha = layers[nearest].as_ref()?.get(pixel)?[3];

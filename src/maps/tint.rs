@@ -25,7 +25,7 @@ pub struct TintSample {
 }
 
 /// The fitted water.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Tint {
     model: Model,
     /// Per channel: gain and offset (of the water's own color) in the model's space.
@@ -37,7 +37,7 @@ pub struct Tint {
     pub spread_codes: f32,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 enum Model {
     Physical,
     Painted,

@@ -8,12 +8,16 @@ use glam::{IVec2, UVec2};
 use super::Grid;
 use super::beyond::{folded, frame};
 use super::coverage::{TourMasks, is_above_contact};
+use super::distance::distances;
 use super::fill::membrane;
 use crate::picture::Mask;
 use crate::picture::PicturePoint;
 use crate::scene::Role;
 use crate::scene::TourScene;
 use crate::scene::margin_px;
+
+/// A hidden border is guessed from what is nearer than this, pixels.
+const FARTHEST: f32 = 64.0;
 
 /// A pixel is known, not guessed, while what is nearer hides less of it than this.
 const HIDDEN: u32 = 5;
@@ -27,7 +31,7 @@ pub(super) fn visible(scene: &TourScene, masks: &TourMasks) -> Vec<Grid<u8>> {
         let mask = match component.role {
             Role::LastLayer | Role::Band => backdrops.next().copied().flatten(),
             Role::Ground => masks.ground,
-            Role::Billboard => billboards.next(),
+            Role::Billboard => billboards.next().copied(),
         };
         seen.push(mask.map_or_else(|| Grid::filled(IVec2::ZERO, UVec2::ZERO, 0), boxed));
     }
@@ -36,7 +40,7 @@ pub(super) fn visible(scene: &TourScene, masks: &TourMasks) -> Vec<Grid<u8>> {
     let rest = backdrops.zip(&masks.backdrops).find(|(_, mask)| mask.is_none()).map_or(0, |(index, _)| index);
     let claiming: Vec<usize> = (0..seen.len()).filter(|&index| index != rest).collect();
     let billboards: Vec<usize> = by(Role::Billboard).collect();
-    let nearest_backdrop = by(Role::Band).last().unwrap_or(0);
+    let nearest_backdrop = by(Role::Band).next_back().unwrap_or(0);
     let ground = scene.ground();
     let code = |grid: &Grid<u8>, pixel: IVec2| u32::from(grid.get(pixel).unwrap_or(0));
 
@@ -47,7 +51,7 @@ pub(super) fn visible(scene: &TourScene, masks: &TourMasks) -> Vec<Grid<u8>> {
         let at = pixel.as_uvec2();
         let water = match masks.water {
             _ if is_above_contact(scene, rest, pixel) => 0,
-            Some(mask) => u32::from(dusted(mask.get(at.x, at.y))),
+            Some(mask) => u32::from(mask.without_dust(at.x, at.y)),
             None => 255,
         };
         255_u32.saturating_sub(claimed + water) as u8
@@ -111,7 +115,9 @@ pub(super) fn completed(
                 behind(own, &hidden, own.origin, own.size, |pixel| is_above_contact(scene, index, pixel))
             }
             Role::Ground => behind(own, &hidden, IVec2::ZERO, size, |pixel| meets(scene, index, pixel)),
-            Role::Band | Role::LastLayer => behind(own, &hidden, IVec2::ZERO, size, |_| true),
+            Role::Band | Role::LastLayer => {
+                behind(own, &hidden, IVec2::ZERO, size, |pixel| is_above_contact(scene, index, pixel))
+            }
         };
         alpha[index] = match scene.components[index].role {
             Role::Billboard => beyond_border(&whole, size),
@@ -131,7 +137,7 @@ pub(super) fn completed(
 }
 
 /// Whether a pixel's ray meets a component's plane within its bounds.
-fn meets(scene: &TourScene, index: usize, pixel: IVec2) -> bool {
+pub(super) fn meets(scene: &TourScene, index: usize, pixel: IVec2) -> bool {
     let ray = scene.camera.ray(PicturePoint::pixel_center(pixel.x.into(), pixel.y.into()));
     scene.components[index].surface.meet(ray).is_some()
 }
@@ -155,7 +161,10 @@ fn behind(
         return Grid::from_fn(origin, extent, |pixel| own.get(pixel).unwrap_or(0));
     }
     let width = extent.x as usize;
-    let to = |inside: bool| distances(width, &states.cells, |(known, covered)| known && covered == inside);
+    let to = |inside: bool| -> Vec<f32> {
+        let is = |cell: usize| states.cells[cell] == (true, inside);
+        distances(width, extent.y as usize, is).into_iter().map(|distance| distance.min(FARTHEST)).collect()
+    };
     let (to_covered, to_free) = (to(true), to(false));
     let mut signed: Vec<[f32; 1]> =
         to_free.iter().zip(&to_covered).map(|(free, covered)| [free - covered]).collect();
@@ -169,38 +178,6 @@ fn behind(
         (255.0 * (0.5 * signed[cell][0] + 0.5).clamp(0.0, 1.0)).round() as u8
     })
 }
-
-/// Distance of every cell to the nearest one that `is`, in pixels along rows, columns and diagonals; at most
-/// [`FARTHEST`].
-fn distances<T: Copy>(width: usize, cells: &[T], is: impl Fn(T) -> bool) -> Vec<f32> {
-    let mut far: Vec<f32> = cells.iter().map(|&cell| if is(cell) { 0.0 } else { FARTHEST }).collect();
-    let mut take = |cell: usize, from: Option<usize>, step: f32| {
-        if let Some(from) = from {
-            far[cell] = far[cell].min(far[from] + step);
-        }
-    };
-    let diagonal = std::f32::consts::SQRT_2;
-    for cell in 0..cells.len() {
-        let (left, right) = (cell % width > 0, cell % width + 1 < width);
-        let above = cell.checked_sub(width);
-        take(cell, above, 1.0);
-        take(cell, left.then(|| cell - 1), 1.0);
-        take(cell, above.filter(|_| left).map(|above| above - 1), diagonal);
-        take(cell, above.filter(|_| right).map(|above| above + 1), diagonal);
-    }
-    for cell in (0..cells.len()).rev() {
-        let (left, right) = (cell % width > 0, cell % width + 1 < width);
-        let below = Some(cell + width).filter(|&below| below < cells.len());
-        take(cell, below, 1.0);
-        take(cell, right.then_some(cell + 1), 1.0);
-        take(cell, below.filter(|_| left).map(|below| below - 1), diagonal);
-        take(cell, below.filter(|_| right).map(|below| below + 1), diagonal);
-    }
-    far
-}
-
-/// Distances are told up to here, pixels: a border is guessed from what is nearer.
-const FARTHEST: f32 = 64.0;
 
 /// A band's coverage across the whole frame: folded in from the sides, its uppermost row prolonged upwards.
 fn across(inside: &Grid<u8>, picture: UVec2) -> Grid<u8> {
@@ -261,14 +238,6 @@ fn boxed(mask: &Mask) -> Grid<u8> {
     let room = UVec2::new(2, 1 + margin_px(mask.size()) as u32);
     Grid::from_fn(bounds.min.as_ivec2() - 1, bounds.size() + room, |pixel| {
         let within = pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(inside).all();
-        if within { dusted(mask.get(pixel.x as u32, pixel.y as u32)) } else { 0 }
+        if within { mask.without_dust(pixel.x as u32, pixel.y as u32) } else { 0 }
     })
-}
-
-fn dusted(coverage: u8) -> u8 {
-    match coverage {
-        0..Mask::DUST => 0,
-        _ if coverage > 255 - Mask::DUST => 255,
-        _ => coverage,
-    }
 }

@@ -2,6 +2,8 @@
 //!
 //! A zone is the mirrored mask; `bodies.rs` adds what only the water sees of a body.
 
+use std::ops::{Deref, DerefMut};
+
 use glam::{DVec3, IVec2, UVec2};
 
 use super::Grid;
@@ -26,11 +28,33 @@ pub(super) struct Zone {
     pub grown: Grid<u8>,
 }
 
-/// Zones of all components; the last layer has none, it lies behind everything.
-pub(super) fn zones(scene: &TourScene, coverage: &Coverage) -> Vec<Option<Zone>> {
+/// Zones of all components.
+pub(super) struct Zones {
+    /// In the scene's order; the last layer has none, it lies behind everything.
+    list: Vec<Option<Zone>>,
+    /// Walls near to far as the first view draws them.
+    walls: Vec<usize>,
+}
+
+impl Deref for Zones {
+    type Target = [Option<Zone>];
+
+    fn deref(&self) -> &Self::Target {
+        &self.list
+    }
+}
+
+impl DerefMut for Zones {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.list
+    }
+}
+
+/// Zones of all components.
+pub(super) fn zones(scene: &TourScene, coverage: &Coverage) -> Zones {
     let size = scene.camera.intrinsics.size;
     let fringe = fringe(size);
-    scene
+    let list = scene
         .components
         .iter()
         .enumerate()
@@ -49,7 +73,9 @@ pub(super) fn zones(scene: &TourScene, coverage: &Coverage) -> Vec<Option<Zone>>
             let zone = if component.role == Role::Band { covered_rows(zone) } else { zone };
             Some(Zone { grown: grow(&zone, fringe, size), coverage: zone })
         })
-        .collect()
+        .collect();
+    let order = scene.near_to_far(scene.camera.pose.position);
+    Zones { list, walls: scene.walls_of(&order).collect() }
 }
 
 /// The rows of a zone that cover anything, and a free one above and below where there is one: a band's box is the
@@ -114,29 +140,36 @@ fn mirrored_corners(scene: &TourScene, surface: &Surface, alpha: &Grid<u8>) -> O
     points.into_iter().map(|point| scene.camera.project(mirror(point))).collect()
 }
 
-/// The components whose fringe covers a water pixel, far to near.
-pub(super) fn stack_at(scene: &TourScene, zones: &[Option<Zone>], pixel: IVec2) -> Vec<usize> {
-    let mut stack: Vec<(f64, usize)> = zones
-        .iter()
-        .enumerate()
-        .filter_map(|(index, zone)| {
-            zone.as_ref().filter(|zone| zone.grown.get(pixel).unwrap_or(0) > 0)?;
-            let point = PicturePoint::pixel_center(pixel.x.into(), pixel.y.into());
-            let found = mirrored(scene, &scene.components[index].surface, point)?;
-            Some((found.parameter, index))
-        })
-        .collect();
-    stack.sort_by(|a, b| b.0.total_cmp(&a.0));
-    stack.into_iter().map(|(_, index)| index).collect()
+impl Zones {
+    /// The components whose fringe covers a water pixel, far to near as the tracer meets them: walls in the order of the
+    /// first view, the level ground where its distance puts it.
+    pub(super) fn stack_at(&self, scene: &TourScene, pixel: IVec2) -> Vec<usize> {
+        let point = PicturePoint::pixel_center(pixel.x.into(), pixel.y.into());
+        let met = |index: usize| {
+            let zone = self.list[index].as_ref()?;
+            let parameter = mirrored(scene, &scene.components[index].surface, point)?.parameter;
+            Some((parameter, index, zone.grown.get(pixel).unwrap_or(0) > 0))
+        };
+        let mut ground = scene.ground().and_then(met).filter(|(.., covers)| *covers);
+        let mut stack = Vec::new();
+        // A wall hides the ground behind it, or is hidden, also where its layer is empty: so does the tracer.
+        for (parameter, wall, covers) in self.walls.iter().filter_map(|&wall| met(wall)) {
+            stack.extend(ground.take_if(|(nearer, ..)| *nearer < parameter).map(|(_, index, _)| index));
+            stack.extend(covers.then_some(wall));
+        }
+        stack.extend(ground.map(|(_, index, _)| index));
+        stack.reverse();
+        stack
+    }
 }
 
 /// Per picture pixel the component whose mirror image, and nothing else, the water shows there; 255 for none.
-pub(super) fn seen_owner(scene: &TourScene, coverage: &Coverage, zones: &[Option<Zone>]) -> Grid<u8> {
+pub(super) fn seen_owner(scene: &TourScene, coverage: &Coverage, zones: &Zones) -> Grid<u8> {
     Grid::from_fn(IVec2::ZERO, scene.camera.intrinsics.size, |pixel| {
         if !coverage.water.get(pixel).unwrap_or(false) {
             return 255;
         }
-        match stack_at(scene, zones, pixel).last() {
+        match zones.stack_at(scene, pixel).last() {
             None => 0,
             Some(&nearest) => {
                 let covered = zones[nearest].as_ref().and_then(|zone| zone.coverage.get(pixel)).unwrap_or(0);

@@ -114,6 +114,20 @@ impl Mask {
     /// Coverage this near to nothing or to everything is that: renderers and compressors leave dust in masks.
     pub const DUST: u8 = 6;
 
+    /// Coverage of a pixel, 0–255, without [dust](Self::DUST).
+    ///
+    /// # Panics
+    ///
+    /// When the pixel lies outside.
+    #[must_use]
+    pub fn without_dust(&self, x: u32, y: u32) -> u8 {
+        match self.get(x, y) {
+            0..Self::DUST => 0,
+            coverage if coverage > 255 - Self::DUST => 255,
+            coverage => coverage,
+        }
+    }
+
     /// The smallest block of pixels that holds all coverage but [dust](Self::DUST); `None` when there is none.
     #[must_use]
     pub fn bounds(&self) -> Option<PixelRect> {

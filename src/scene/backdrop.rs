@@ -3,6 +3,7 @@
 //! However they are marked, every one gets a place; they come out far to near, the last layer first.
 
 use glam::{DMat2, DVec2};
+use serde::{Deserialize, Serialize};
 
 use super::{Surface, Wall};
 use crate::camera::PinholeCamera;
@@ -21,7 +22,7 @@ const FRONTAL_WITHIN: f64 = 0.2;
 const DISTANCES: [f64; 2] = [0.1, 1e5];
 
 /// Where a backdrop stands.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum BackdropPlace {
     /// This far along −z, meters.
     Distance(f64),
@@ -32,7 +33,7 @@ pub enum BackdropPlace {
 }
 
 /// A backdrop to be placed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BackdropPlan {
     /// Its name in the tour file.
     pub name: String,

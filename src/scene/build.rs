@@ -4,6 +4,7 @@
 //! front of the background, with a remark.
 
 use glam::{DVec2, DVec3, IVec2, UVec2};
+use serde::{Deserialize, Serialize};
 
 use super::backdrop::{self, BackdropPlan};
 use super::{CameraBounds, Level, Role, SceneComponent, Surface, TourScene, Wall};
@@ -32,7 +33,7 @@ pub fn margin_px(picture: UVec2) -> i32 {
 }
 
 /// A billboard to be placed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BillboardPlan {
     /// Its name in the tour file.
     pub name: String,
@@ -45,7 +46,7 @@ pub struct BillboardPlan {
 }
 
 /// Everything [`build`] needs to know.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScenePlan {
     /// The camera that took the picture, at (0, h, 0).
     pub camera: PinholeCamera,

@@ -28,7 +28,7 @@ use crate::scene::TourScene;
 use crate::scene::mirror;
 
 /// Less light than this is left behind a layer: half a display code cannot change any more.
-const OPAQUE: f32 = 1.0 / 512.0;
+const OPAQUE: f32 = 1.0 / 8192.0;
 
 /// A mirrored ray climbs at least this steeply; steep waves would send it under the water (notes §8.2).
 const LEAST_CLIMB: f64 = 1e-5;

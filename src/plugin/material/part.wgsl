@@ -1,6 +1,6 @@
 // A tour's part: a component's texture map read through the picture's own camera, or the water.
 
-#import bevy_picture_tour::tour::{TourUniform, component, fragment_ray, meet_plane, see, see_far, snap, INFINITE}
+#import bevy_picture_tour::tour::{TourUniform, component, fragment_ray, meet_plane, see, see_far, sharp, snap, INFINITE}
 #import bevy_picture_tour::vertex::{TourVertex, Vertex, place}
 #import bevy_picture_tour::finish::finish
 #ifdef TOUR_WATER
@@ -34,8 +34,9 @@ fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
     if found.kind != INFINITE {
         at = see(tour, ray.origin + meet_plane(found, ray) * ray.direction);
     }
-    let uv = (snap(at) - tour.layer.xy) / tour.layer.zw;
-    let color = textureSampleLevel(map, map_sampler, uv, 0.0);
+    let size = vec2<f32>(textureDimensions(map));
+    let texel = (snap(at) - tour.layer.xy) / tour.layer.zw * size;
+    let color = sharp(map, map_sampler, texel, vec2(0.0), size - 1.0);
     if color.a <= tour.flags.y {
         discard;
     }

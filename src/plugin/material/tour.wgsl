@@ -1,7 +1,7 @@
 // What the tour's shaders share: records, rays, and where the picture's camera sees a point.
 //
 // Points are found by intersecting rays in tour space; nothing is interpolated over a quad (architecture.md,
-// decision 2). `see` and `snap` are twins of `trace/eye.rs` and `maps/grid.rs`.
+// decision 2). `see`, `snap` and `sharp` are twins of `trace/eye.rs` and `maps/grid.rs`.
 
 #define_import_path bevy_picture_tour::tour
 
@@ -127,6 +127,48 @@ fn see(tour: TourUniform, point: vec3<f32>) -> vec2<f32> {
 fn snap(point: vec2<f32>) -> vec2<f32> {
     let center = floor(point) + 0.5;
     return select(point, center, abs(point - center) < vec2(1.0 / 32.0));
+}
+
+// Catmull and Rom's weights of the four texels around a place `t` between the middle two.
+fn cubic(t: f32) -> vec4<f32> {
+    return vec4(
+        t * (-0.5 + t * (1.0 - 0.5 * t)),
+        1.0 + t * t * (-2.5 + 1.5 * t),
+        t * (0.5 + t * (2.0 - 1.5 * t)),
+        t * t * (-0.5 + 0.5 * t),
+    );
+}
+
+// A map at `at`, in texels, kept within the block of texels from `low` to `high` (the last one): cubic, and within what
+// the four nearest texels span, so that nothing rings. The block's border is prolonged.
+fn sharp(map: texture_2d<f32>, filtering: sampler, at: vec2<f32>, low: vec2<f32>, high: vec2<f32>) -> vec4<f32> {
+    let inside = clamp(at, low + 0.5, high + 0.5);
+    let corner = floor(inside - 0.5);
+    let part = inside - 0.5 - corner;
+    if all(part == vec2(0.0)) {
+        return textureLoad(map, vec2<i32>(corner), 0);
+    }
+    let linear = textureSampleLevel(map, filtering, inside / vec2<f32>(textureDimensions(map)), 0.0);
+    if linear.a <= 0.0 {
+        return vec4(0.0);
+    }
+    let across = cubic(part.x);
+    let down = cubic(part.y);
+    var sum = vec4(0.0);
+    var least = vec4(1.0);
+    var most = vec4(0.0);
+    for (var y = 0; y < 4; y++) {
+        for (var x = 0; x < 4; x++) {
+            let place = clamp(corner + vec2(f32(x - 1), f32(y - 1)), low, high);
+            let texel = textureLoad(map, vec2<i32>(place), 0);
+            sum += across[x] * down[y] * texel;
+            if (x == 1 || x == 2) && (y == 1 || y == 2) {
+                least = min(least, texel);
+                most = max(most, texel);
+            }
+        }
+    }
+    return clamp(sum, least, most);
 }
 
 fn mirror(point: vec3<f32>) -> vec3<f32> {

@@ -5,21 +5,21 @@
 #define_import_path bevy_picture_tour::water
 
 #import bevy_picture_tour::tour::{
-    Component, Ray, TourUniform, component, contains, fragment_ray, meet_plane, mirror, see, see_far, snap,
+    Component, Ray, TourUniform, component, contains, fragment_ray, meet_plane, mirror, see, see_far, sharp, snap,
     INFINITE,
 }
 
 // Less light than this is left behind a layer: half a display code cannot change any more.
-const OPAQUE: f32 = 1.0 / 512.0;
+const OPAQUE: f32 = 1.0 / 8192.0;
 // A mirrored ray climbs at least this steeply.
 const LEAST_CLIMB: f32 = 1e-5;
 
 // A reflection map at a picture point; its border is prolonged.
 fn sample_map(maps: texture_2d<f32>, filtering: sampler, found: Component, at: vec2<f32>) -> vec4<f32> {
-    // Half a texel inside, or the maps beside it in the atlas would bleed in.
-    let last = round(found.layer.zw * found.atlas.z) - 0.5;
-    let texel = found.atlas.xy + clamp((snap(at) - found.layer.xy) * found.atlas.z, vec2(0.5), last);
-    return textureSampleLevel(maps, filtering, texel / vec2<f32>(textureDimensions(maps)), 0.0);
+    // Within the map, or those beside it in the atlas would bleed in.
+    let last = found.atlas.xy + round(found.layer.zw * found.atlas.z) - 1.0;
+    let texel = found.atlas.xy + (snap(at) - found.layer.xy) * found.atlas.z;
+    return sharp(maps, filtering, texel, found.atlas.xy, last);
 }
 
 struct Hit {
