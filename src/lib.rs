@@ -1,8 +1,9 @@
 //! Step into a picture: one still picture with water in it becomes a scene one can fly through.
 //!
-//! In a game: [`prelude`], [`plugin`]. Without a window: `headless`. The method itself, without Bevy, in the order of its
-//! data: [`tour`] (the document) → [`solve`] (the camera) → [`scene`] (planes in meters) → [`maps`] (what is on them), all
-//! run by [`assemble`] → [`trace`] (the reference image). [`picture`] and [`camera`] stand below them all.
+//! In a game: [`prelude`], [`plugin`]. Without a window: `headless`. The method itself, without Bevy, in the
+//! order of its data: [`tour`] (the document) → [`solve`] (the camera) → [`scene`] (planes in meters) →
+//! [`maps`] (what is on them), all run by [`assemble`], kept by [`bake`] → [`trace`] (the reference image).
+//! [`picture`] and [`camera`] stand below them all.
 //!
 //! Pictures: pixels, (0, 0) the outer corner of the top-left one, y down. World: meters, x right, y up, −z into the
 //! picture, resting water at y = 0; the picture was taken from (0, h, 0). Rotations are world-from-view,
@@ -21,6 +22,8 @@ pub mod scene;
 pub mod maps;
 
 pub mod assemble;
+
+pub mod bake;
 
 pub mod trace;
 

@@ -108,6 +108,33 @@ impl<P> Document<P> {
         files
     }
 
+    /// The document without what only moves it (wind, waves, path, drift, motions, turning): all that maps
+    /// depend on.
+    #[must_use]
+    pub fn still(&self) -> Self
+    where
+        P: Clone,
+    {
+        let mut still = self.clone();
+        (still.wind, still.waves, still.path) = (Wind::default(), Waves::default(), None);
+        if let Some(sky) = &mut still.sky {
+            sky.drift = None;
+        }
+        for object in &mut still.objects {
+            (object.turns_to_camera, object.motion) = (false, Motion::Static);
+        }
+        still
+    }
+
+    /// The picture and the masks that maps are built from, each with the way to the place that names it.
+    #[must_use]
+    pub fn map_files(&self) -> Vec<(String, P)>
+    where
+        P: Clone,
+    {
+        self.still().files()
+    }
+
     /// The same document with every path taken through `map`, which is told where the path stands; stops at its first
     /// error.
     pub(super) fn map_paths<Q, E>(self, map: &mut PathMap<'_, P, Q, E>) -> Result<Document<Q>, E> {

@@ -12,6 +12,7 @@ mod object;
 mod problem;
 mod read;
 mod relative_path;
+mod save;
 mod template;
 mod weather;
 
@@ -25,11 +26,11 @@ pub use journey::{CameraPath, Keyframe};
 pub use object::{Course, Floating, Motion, Object, Recorded, Support, Sway, SwayKind, Waypoint};
 pub use problem::{Place, Problem, Problems};
 pub use relative_path::{RelativePath, UnsafePath};
+pub(crate) use save::write_whole;
 pub use weather::{Jonswap, Octaves, RecordedSea, Sea, Waves, Wind};
 
 use std::convert::Infallible;
-use std::fs::Permissions;
-use std::io::{self, Write};
+use std::io;
 use std::ops::Deref;
 use std::path::Path;
 
@@ -111,19 +112,7 @@ impl Tour {
     /// This returns an error when the folder cannot be written to or the disk is full; an older file then stays as it was.
     pub fn save(&self, path: &Path) -> io::Result<()> {
         let text = self.text().map_err(io::Error::other)?;
-        let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut builder = tempfile::Builder::new();
-        // A temporary file is private; a tour is as open as the file it replaces, or as any new file.
-        if let Some(permissions) =
-            path.metadata().map(|old| old.permissions()).ok().or_else(usual_permissions)
-        {
-            builder.permissions(permissions);
-        }
-        let mut file = builder.tempfile_in(folder)?;
-        file.write_all(text.as_bytes())?;
-        file.as_file().sync_all()?;
-        file.persist(&path).map(drop).map_err(|error| error.error)
+        write_whole(path, text.as_bytes())
     }
 
     /// What a pair's point is on, if the pair says.
@@ -143,18 +132,6 @@ impl Tour {
     pub fn dry_reflections(&self, coverage: &dyn Fn(PicturePoint) -> f32) -> Vec<Problem> {
         self.water.as_ref().map_or_else(Vec::new, |water| check::dry_reflections(&water.pairs, coverage))
     }
-}
-
-#[cfg(unix)]
-fn usual_permissions() -> Option<Permissions> {
-    use std::os::unix::fs::PermissionsExt;
-    // The user's mask takes away what it must.
-    Some(Permissions::from_mode(0o666))
-}
-
-#[cfg(not(unix))]
-fn usual_permissions() -> Option<Permissions> {
-    None
 }
 
 impl Deref for Tour {

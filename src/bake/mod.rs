@@ -1,0 +1,73 @@
+//! Baked tours: all layers of an assembled tour in one file, written once and loaded fast.
+//!
+//! Building maps takes many seconds, reading them back a fraction of one. `NAME.tour.baked` lies beside
+//! `NAME.tour.ron`; its [`Fingerprint`] says of which tour, files and options it was made, so a stale one is
+//! known without decoding anything.
+//!
+//! Numbers are little-endian. Every byte is under a BLAKE3 hash:
+//!
+//! | bytes | what |
+//! |---|---|
+//! | 8 | `89 50 54 42 0d 0a 1a 0a`, the last four to notice a transfer as text |
+//! | 4 | [`FORMAT_VERSION`] |
+//! | 32 | the fingerprint |
+//! | 8 | the header's length |
+//! | 32 | hash of all bytes before this and of the header |
+//! | … | the header in RON: tour, annotations, scene plan, remarks, tint, each layer's place, size and hash |
+//! | … | the layers in the header's order, texture before reflection: RGBA8 cells, one block of LZ4 each |
+//!
+//! What is quick to derive is derived again from what was marked: the solution by [`crate::solve`], the
+//! planes by [`crate::scene`].
+
+mod error;
+mod fingerprint;
+mod header;
+mod read;
+mod write;
+
+pub use error::BakeError;
+pub use fingerprint::{Fingerprint, fingerprint};
+pub use header::{FORMAT_VERSION, fingerprint_of};
+pub use read::decode;
+pub use write::{encode, save};
+
+use std::path::{Path, PathBuf};
+
+use glam::UVec2;
+
+use crate::assemble::AssembledTour;
+use crate::tour::Tour;
+
+/// A baked tour, read back.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Baked {
+    /// Of what it was made.
+    pub fingerprint: Fingerprint,
+    /// The tour in pixels of the part of the picture that is used, as a
+    /// [`TourSource`](crate::assemble::TourSource) has it.
+    pub tour: Tour,
+    /// What was baked, to the bit.
+    pub built: AssembledTour,
+    /// Width and height of the used part of the picture, pixels.
+    pub picture_size: UVec2,
+    /// Width and height of the whole picture, pixels.
+    pub uncropped_size: UVec2,
+}
+
+impl Baked {
+    /// The same maps for the tour as its file says it now, which must have the same [`fingerprint()`]: wind,
+    /// waves, path and motions are not part of that, and may have changed since.
+    #[must_use]
+    pub fn with_tour(self, tour: &Tour) -> Self {
+        Self { tour: tour.in_pixels_of(self.uncropped_size), ..self }
+    }
+}
+
+/// Where a tour's baked file lies: `lake.tour.baked` beside `lake.tour.ron`.
+#[must_use]
+pub fn baked_path(tour: &Path) -> PathBuf {
+    tour.with_extension("baked")
+}
+
+#[cfg(test)]
+mod tests;
