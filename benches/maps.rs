@@ -8,8 +8,8 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Duration;
 
-use bevy_picture_tour::assemble::{TourSource, assemble};
-use bevy_picture_tour::maps::Maps;
+use bevy_picture_tour::assemble::{TourSource, assemble, place};
+use bevy_picture_tour::maps::{MapOptions, Maps};
 use bevy_picture_tour::picture::decode_picture;
 use criterion::Criterion;
 
@@ -18,8 +18,8 @@ fn main() {
     let file = folder.join("lake.tour.ron");
     let open = || TourSource::open(&file).unwrap_or_else(|problems| panic!("{problems}"));
     let source = open();
-    let scene = assemble(&source, &|_, _| true).unwrap().scene;
-    let masks = source.masks(&scene);
+    let placed = place(&source).unwrap();
+    let (scene, masks) = (&placed.scene, placed.masks(&source));
     let png = std::fs::read(folder.join("lake.png")).unwrap();
 
     let mut criterion = Criterion::default().configure_from_args();
@@ -29,11 +29,20 @@ fn main() {
         bencher.iter(|| decode_picture(black_box(&png), "lake.png").unwrap());
     });
     group.bench_function("open: tour, picture and masks", |bencher| bencher.iter(open));
-    group.bench_function("maps from decoded pixels", |bencher| {
-        bencher.iter(|| Maps::build(&scene, black_box(&source.picture), &masks, &|_, _| true).unwrap());
-    });
+    let ways = [
+        ("maps, smooth fills", MapOptions::PREVIEW),
+        ("maps, patches inside the picture", MapOptions { paint_beyond: false, ..MapOptions::default() }),
+        ("maps, patches inside and beyond", MapOptions::default()),
+    ];
+    for (name, options) in ways {
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| {
+                Maps::build(scene, black_box(&source.picture), &masks, &options, &|_, _| true).unwrap()
+            });
+        });
+    }
     group.bench_function("from file to ready", |bencher| {
-        bencher.iter(|| assemble(&open(), &|_, _| true).unwrap());
+        bencher.iter(|| assemble(&open(), &MapOptions::default(), &|_, _| true).unwrap());
     });
     group.finish();
     criterion.final_summary();

@@ -9,6 +9,7 @@ use std::path::Path;
 
 use bevy_picture_tour::assemble::{TourSource, assemble};
 use bevy_picture_tour::camera::{CameraPose, PinholeCamera};
+use bevy_picture_tour::maps::MapOptions;
 use bevy_picture_tour::picture::color::{linear_from_srgb3, srgb_from_linear3};
 use bevy_picture_tour::trace::Reference;
 use criterion::{Criterion, Throughput};
@@ -19,7 +20,7 @@ const SIZE: UVec2 = UVec2::new(640, 360);
 fn main() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lake/lake.tour.ron");
     let source = TourSource::open(&path).unwrap_or_else(|problems| panic!("{problems}"));
-    let built = assemble(&source, &|_, _| true).unwrap();
+    let built = assemble(&source, &MapOptions::default(), &|_, _| true).unwrap();
     let own = built.scene.camera;
     let home = PinholeCamera { intrinsics: own.intrinsics.scaled_to(SIZE), ..own };
     let elsewhere = CameraPose::from_angles(DVec3::new(1.44, 2.3, -1.2), 0.07, 0.0, 0.0);

@@ -23,7 +23,7 @@ fn main() -> Result<AppExit, Box<dyn std::error::Error>> {
     Ok(App::new()
         .add_plugins((DefaultPlugins, PictureTourPlugin))
         .add_systems(Startup, move |mut commands: Commands, mut tours: ResMut<Assets<TourAsset>>| {
-            commands.spawn(PictureTour(tours.add(TourAsset(Arc::clone(&source)))));
+            commands.spawn(PictureTour(tours.add(TourAsset::from(Arc::clone(&source)))));
             commands.spawn(TourCamera { guide: Guide::Path, ..default() });
         })
         .run())

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use bevy_picture_tour::assemble::{TourSource, assemble};
 use bevy_picture_tour::camera::{CameraPose, PinholeCamera};
+use bevy_picture_tour::maps::MapOptions;
 use bevy_picture_tour::picture::{PngPixels, save_png};
 use bevy_picture_tour::trace::Reference;
 use glam::DVec3;
@@ -15,7 +16,7 @@ use glam::DVec3;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let out = std::env::args().nth(1).map_or_else(|| PathBuf::from("reference.png"), PathBuf::from);
     let source = TourSource::open(Path::new("assets/lake/lake.tour.ron"))?;
-    let built = assemble(&source, &|share, step| {
+    let built = assemble(&source, &MapOptions::default(), &|share, step| {
         println!("{:3.0} %  {step}", 100.0 * share);
         true
     })?;

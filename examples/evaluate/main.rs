@@ -2,9 +2,10 @@
 //! picture never saw, and prints how far they are from the truth.
 //!
 //! `cargo run --release --features app --example evaluate -- WORLD_DIR [--reference] [--known-focal] [--bands none]
-//! [--out DIR] [--json FILE]`
+//! [--method paper] [--fill smooth] [--out DIR] [--json FILE]`
 #![expect(clippy::print_stdout, reason = "a program prints")]
 
+mod uncovered;
 mod world;
 
 use std::path::PathBuf;
@@ -14,7 +15,9 @@ use std::time::Instant;
 use bevy_picture_tour::assemble::{AssembledTour, TourSource, assemble};
 use bevy_picture_tour::camera::PinholeCamera;
 use bevy_picture_tour::headless::HeadlessTour;
+use bevy_picture_tour::maps::{Fill, MapOptions, Method};
 use bevy_picture_tour::picture::{Picture, PngPixels, save_png};
+use bevy_picture_tour::plugin::TourAsset;
 use bevy_picture_tour::trace::Reference;
 use bevy_picture_tour::trace::compare::Comparison;
 use clap::Parser;
@@ -36,6 +39,12 @@ struct Args {
     /// Where the background's bands come from.
     #[arg(long, value_enum, default_value_t = Bands::File)]
     bands: Bands,
+    /// How reflection maps are made.
+    #[arg(long, value_enum, default_value_t = MethodName::Ours)]
+    method: MethodName,
+    /// How holes are filled.
+    #[arg(long, value_enum, default_value_t = FillName::Patches)]
+    fill: FillName,
     /// Writes the frames here.
     #[arg(long)]
     out: Option<PathBuf>,
@@ -43,6 +52,9 @@ struct Args {
     #[arg(long)]
     json: Option<PathBuf>,
 }
+
+/// The first views are moves by 10 % of the nearest object's distance, to the left and to the right.
+const SMALL_MOVES: usize = 2;
 
 /// Where the background's bands come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -53,6 +65,37 @@ enum Bands {
     None,
 }
 
+/// How reflection maps are made.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum MethodName {
+    /// They know what the water showed, and predict the rest.
+    Ours,
+    /// The paper's: read from the filled picture.
+    Paper,
+}
+
+/// How holes are filled.
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum FillName {
+    /// Patches of what the component shows elsewhere.
+    Patches,
+    /// A smooth mean of what is around.
+    Smooth,
+}
+
+impl Args {
+    fn options(&self) -> MapOptions {
+        let fill = match self.fill {
+            FillName::Patches => Fill::Patches,
+            FillName::Smooth => Fill::Smooth,
+        };
+        match self.method {
+            MethodName::Ours => MapOptions { fill, ..MapOptions::default() },
+            MethodName::Paper => MapOptions { method: Method::Paper, fill, paint_beyond: false },
+        }
+    }
+}
+
 type Failure = Box<dyn std::error::Error>;
 
 fn main() -> Result<(), Failure> {
@@ -61,7 +104,7 @@ fn main() -> Result<(), Failure> {
     let tour = world.tour(args.known_focal, args.bands == Bands::File)?;
     let source = Arc::new(TourSource::read(&tour, &|file| world.read(file.as_str()))?);
     let started = Instant::now();
-    let built = assemble(&source, &|_, _| true)?;
+    let built = Arc::new(assemble(&source, &args.options(), &|_, _| true)?);
     let seconds_for_maps = started.elapsed().as_secs_f64();
     for remark in built.remarks.iter().chain(&built.solution.report.remarks) {
         println!("remark: {remark}");
@@ -79,6 +122,9 @@ fn main() -> Result<(), Failure> {
     );
     keep(&args, "first_view", &first)?;
 
+    let made_up = uncovered::made_up(&built.maps, &source.picture);
+    let showing_made_up = Reference::new(&built.scene, &made_up);
+    let mut uncovered = Vec::new();
     let mut views = Vec::new();
     let started = Instant::now();
     let mut rendering = 0.0;
@@ -95,6 +141,14 @@ fn main() -> Result<(), Failure> {
         };
         let water = water.map(|water| (water.psnr, water.ssim));
         println!("{}  {}", view.file, figures(all.psnr, all.ssim, water));
+        if uncovered.len() < SMALL_MOVES {
+            let mask = uncovered::mask(&showing_made_up.render(&camera, 1));
+            let found = mask.and_then(|mask| Comparison::over(&frame, &truth, &mask).ok());
+            if let Some(found) = &found {
+                println!("  {} px that the move uncovers: {:.2} dB", found.pixels, found.psnr);
+            }
+            uncovered.push(found.map(|found| (found.pixels, found.psnr)));
+        }
         keep(&args, &view.name(), &frame)?;
         views.push((all.psnr, all.ssim, water));
     }
@@ -121,6 +175,9 @@ fn main() -> Result<(), Failure> {
                 let mut entry = entry(found);
                 entry["file"] = json!(view.file);
                 entry
+            }).collect::<Vec<_>>(),
+            "uncovered_by_small_moves": uncovered.iter().flatten().map(|(pixels, psnr)| {
+                json!({ "pixels": pixels, "psnr": psnr })
             }).collect::<Vec<_>>(),
             "mean": entry(&mean),
             "mean_without_5_and_8": entry(&safe),
@@ -186,13 +243,13 @@ enum Renderer<'a> {
 }
 
 impl<'a> Renderer<'a> {
-    fn new(args: &Args, source: &Arc<TourSource>, built: &'a AssembledTour) -> Result<Self, Failure> {
+    fn new(args: &Args, source: &TourSource, built: &'a Arc<AssembledTour>) -> Result<Self, Failure> {
         if args.reference {
             return Ok(Self::Reference(Reference::new(&built.scene, &built.maps)));
         }
         let size = source.picture.size();
-        let headless = HeadlessTour::new(Arc::clone(source), size, bevy::prelude::Transform::default())?;
-        Ok(Self::Gpu(Box::new(headless)))
+        let tour = TourAsset::Built(source.tour.clone(), Arc::clone(built));
+        Ok(Self::Gpu(Box::new(HeadlessTour::new(tour, size, bevy::prelude::Transform::default())?)))
     }
 
     fn render(&mut self, camera: &PinholeCamera) -> Result<Picture, Failure> {

@@ -14,6 +14,7 @@ pub use pose::CameraPose;
 pub use visitor::{Visitor, VisitorSettings, VisitorWish};
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2};
+use serde::{Deserialize, Serialize};
 
 use crate::picture::PicturePoint;
 
@@ -35,7 +36,7 @@ impl Ray {
 }
 
 /// What the lens and the frame are: focal length, principal point and size, all in pixels.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Intrinsics {
     /// Focal length in pixels, above 0.
     pub focal_px: f64,
@@ -86,7 +87,7 @@ impl Intrinsics {
 }
 
 /// A camera without distortion, with square pixels.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PinholeCamera {
     /// Lens and frame.
     pub intrinsics: Intrinsics,

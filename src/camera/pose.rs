@@ -1,12 +1,13 @@
 //! Where a camera stands and looks.
 
 use glam::{DQuat, DVec3, EulerRot};
+use serde::{Deserialize, Serialize};
 
 /// Position and rotation of a camera in the world.
 ///
 /// Rotation is world-from-view, Ry(yaw)·Rx(pitch)·Rz(roll): yaw > 0 turns left, pitch > 0 looks up, roll > 0 tips the
 /// camera to its left (the picture turns clockwise).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CameraPose {
     /// Meters; y is the height above the resting water.
     pub position: DVec3,

@@ -22,7 +22,7 @@ use bevy::render::{RenderApp, RenderPlugin};
 use bevy::time::TimeUpdateStrategy;
 use bevy::window::{ExitCondition, WindowPlugin};
 
-use crate::assemble::TourSource;
+use crate::assemble::assemble;
 use crate::camera::Fit;
 use crate::camera::PinholeCamera;
 use crate::picture::Picture;
@@ -77,8 +77,8 @@ impl HeadlessTour {
     /// # Errors
     ///
     /// This returns an error without an adapter, when the tour cannot be solved, or when a shader does not compile.
-    pub fn new(source: Arc<TourSource>, size: UVec2, place: Transform) -> Result<Self, HeadlessError> {
-        Self::in_app(headless_app()?, source, size, place)
+    pub fn new(tour: impl Into<TourAsset>, size: UVec2, place: Transform) -> Result<Self, HeadlessError> {
+        Self::in_app(headless_app()?, tour, size, place)
     }
 
     /// The same in an app of [`headless_app_with`] that nobody has finished yet.
@@ -88,12 +88,21 @@ impl HeadlessTour {
     /// As [`new`](Self::new).
     pub fn in_app(
         mut app: App,
-        source: Arc<TourSource>,
+        tour: impl Into<TourAsset>,
         size: UVec2,
         place: Transform,
     ) -> Result<Self, HeadlessError> {
         app.add_plugins(PictureTourPlugin);
-        let asset = app.world_mut().resource_mut::<Assets<TourAsset>>().add(TourAsset(source));
+        // Frames are of the finished tour, never of a preview.
+        let tour = match tour.into() {
+            TourAsset::Source(source, options) => {
+                let built = assemble(&source, &options, &|_, _| true)
+                    .map_err(|error| HeadlessError::Tour(error.to_string()))?;
+                TourAsset::Built(source.tour.clone(), Arc::new(built))
+            }
+            built @ TourAsset::Built(..) => built,
+        };
+        let asset = app.world_mut().resource_mut::<Assets<TourAsset>>().add(tour);
         let target = app.world_mut().resource_mut::<Assets<Image>>().add(target_image(size));
         app.world_mut().spawn((PictureTour(asset), place));
         let camera = app

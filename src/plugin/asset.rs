@@ -10,18 +10,50 @@ use bevy::asset::io::Reader;
 use bevy::asset::{AssetLoader, AssetPath, LoadContext};
 use bevy::prelude::*;
 
+use crate::assemble::AssembledTour;
 use crate::assemble::TourSource;
+use crate::bake::{self, BakeError, Baked};
+use crate::maps::MapOptions;
 use crate::tour::Problem;
 use crate::tour::Problems;
-use crate::tour::Region;
 use crate::tour::RelativePath;
 use crate::tour::Tour;
 
-/// A tour with the pixels it speaks of. Build one in code with [`TourSource::read`], or load a `.tour.ron`.
+/// A tour to be shown. Make one in code from a [`TourSource`], or load a `.tour.ron` (with a fresh `.tour.baked` beside it
+/// that is taken instead of building) or a `.tour.baked` alone.
 #[derive(Asset, TypePath, Clone, Debug)]
-pub struct TourAsset(pub Arc<TourSource>);
+pub enum TourAsset {
+    /// With the pixels it speaks of. Where its holes are to be filled with patches, which takes seconds, a preview is
+    /// shown first and refined in place.
+    Source(Arc<TourSource>, MapOptions),
+    /// Solved and built before.
+    Built(Tour, Arc<AssembledTour>),
+}
 
-/// Loads [`TourAsset`]s.
+impl TourAsset {
+    /// The document, in pixels of the picture that is used.
+    #[must_use]
+    pub fn tour(&self) -> &Tour {
+        match self {
+            Self::Source(source, _) => &source.tour,
+            Self::Built(tour, _) => tour,
+        }
+    }
+}
+
+impl From<Baked> for TourAsset {
+    fn from(baked: Baked) -> Self {
+        Self::Built(baked.tour, Arc::new(baked.built))
+    }
+}
+
+impl From<Arc<TourSource>> for TourAsset {
+    fn from(source: Arc<TourSource>) -> Self {
+        Self::Source(source, MapOptions::default())
+    }
+}
+
+/// Loads [`TourAsset`]s; its settings say how maps are made.
 #[derive(Debug, Default, TypePath)]
 pub(super) struct TourLoader;
 
@@ -40,15 +72,58 @@ pub enum TourLoadError {
     Problems(#[from] Problems),
 }
 
-impl AssetLoader for TourLoader {
+/// Loads [`TourAsset`]s that were baked, without the files they were baked from.
+#[derive(Debug, Default, TypePath)]
+pub(super) struct BakedTourLoader;
+
+/// Why a baked tour could not be loaded.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BakedTourLoadError {
+    /// The file itself could not be read.
+    #[error("the baked tour cannot be read: {0}")]
+    Read(#[from] std::io::Error),
+    /// It is damaged, or of another version.
+    #[error("{file}: {error}")]
+    Bake {
+        /// The file.
+        file: String,
+        /// What is wrong with it.
+        error: BakeError,
+    },
+}
+
+impl AssetLoader for BakedTourLoader {
     type Asset = TourAsset;
     type Settings = ();
-    type Error = TourLoadError;
+    type Error = BakedTourLoadError;
 
     async fn load(
         &self,
         reader: &mut dyn Reader,
         _settings: &(),
+        context: &mut LoadContext<'_>,
+    ) -> Result<TourAsset, BakedTourLoadError> {
+        let mut bytes = Vec::new();
+        reader.read_to_end(&mut bytes).await?;
+        let file = context.path().to_string();
+        bake::decode(&bytes).map(TourAsset::from).map_err(|error| BakedTourLoadError::Bake { file, error })
+    }
+
+    fn extensions(&self) -> &[&str] {
+        &["tour.baked"]
+    }
+}
+
+impl AssetLoader for TourLoader {
+    type Asset = TourAsset;
+    type Settings = MapOptions;
+    type Error = TourLoadError;
+
+    async fn load(
+        &self,
+        reader: &mut dyn Reader,
+        settings: &MapOptions,
         context: &mut LoadContext<'_>,
     ) -> Result<TourAsset, TourLoadError> {
         let mut bytes = Vec::new();
@@ -57,20 +132,29 @@ impl AssetLoader for TourLoader {
         let text = String::from_utf8(bytes).map_err(|_| TourLoadError::NotText(name.clone()))?;
         let tour = Tour::read(&text).map_err(|problems| problems.with_file(&name))?;
         let mut files = HashMap::new();
-        for (place, file) in maps_of(&tour) {
+        for (place, file) in tour.map_files() {
             let read = read_beside(context, &place, &file)
                 .await
                 .map_err(|problem| Problems::from(problem).located_in(&text).with_file(&name))?;
             files.insert(file.as_str().to_owned(), read);
         }
+        let baked = bake::baked_path(context.path().path());
+        let baked_name = baked.display().to_string();
+        let beside = AssetPath::from_path_buf(baked).with_source(context.path().source().clone_owned());
+        let baked = context.read_asset_bytes(beside).await.ok();
         let lookup = |file: &RelativePath| match files.get(file.as_str()) {
             Some(Ok(bytes)) => Ok(bytes.clone()),
             Some(Err(error)) => Err(error.clone()),
             None => Err("it was not read".to_owned()),
         };
+        if let Some(bytes) = baked
+            && let Some(built) = fresh_bake(&baked_name, &bytes, &tour, settings, &lookup)
+        {
+            return Ok(built);
+        }
         let source = TourSource::read(&tour, &lookup)
             .map_err(|problems| problems.located_in(&text).with_file(&name))?;
-        Ok(TourAsset(Arc::new(source)))
+        Ok(TourAsset::Source(Arc::new(source), *settings))
     }
 
     fn extensions(&self) -> &[&str] {
@@ -78,32 +162,30 @@ impl AssetLoader for TourLoader {
     }
 }
 
-/// The picture and the masks that maps are built from, with the places that name them.
-fn maps_of(tour: &Tour) -> Vec<(String, RelativePath)> {
-    let mut files = vec![("picture.file".to_owned(), tour.picture.file.clone())];
-    let mut mask = |place: String, region: &Region| {
-        if let Region::Mask(file) = region {
-            files.push((place, file.clone()));
+/// A tour's baked file, if `bytes` are one and it is fresh; `name` is for the log.
+fn fresh_bake(
+    name: &str,
+    bytes: &[u8],
+    tour: &Tour,
+    options: &MapOptions,
+    read: &dyn Fn(&RelativePath) -> Result<Vec<u8>, String>,
+) -> Option<TourAsset> {
+    let wanted = bake::fingerprint(tour, options, read).ok()?;
+    let fresh = match bake::fingerprint_of(bytes) {
+        Ok(found) if found == wanted => bake::decode(bytes),
+        Ok(_) => {
+            warn!("{name} is stale: the tour, its files or this program changed since; bake it again");
+            return None;
         }
+        Err(error) => Err(error),
     };
-    if let Some(water) = &tour.water {
-        mask("water.region".to_owned(), &water.region);
-    }
-    if let Some(ground) = &tour.ground {
-        mask("ground.region".to_owned(), &ground.region);
-    }
-    for (i, band) in tour.background.bands.iter().enumerate() {
-        if let Some(region) = &band.region {
-            mask(format!("background.bands[{i}].region"), region);
+    match fresh {
+        Ok(baked) => Some(baked.with_tour(tour).into()),
+        Err(error) => {
+            warn!("{name} is not used: {error}");
+            None
         }
     }
-    if let Some(region) = tour.sky.as_ref().and_then(|sky| sky.region.as_ref()) {
-        mask("sky.region".to_owned(), region);
-    }
-    for (i, object) in tour.objects.iter().enumerate() {
-        mask(format!("objects[{i}].outline"), &object.outline);
-    }
-    files
 }
 
 /// Reads a file beside the tour; a path that leaves the folder is a problem, a file that is not there an error text.

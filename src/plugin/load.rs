@@ -1,7 +1,7 @@
 //! From a handle to a tour that is shown: solving and map building, off the main thread, with an answer in the end.
 //!
-//! Tours whose assets exist at start-up are built once, before the first frame. When a changed file is broken, the last
-//! good tour stays.
+//! A preview is shown as soon as it can be, and refined in place: entities, materials and images stay. Tours whose
+//! assets exist at start-up are shown before the first frame. When a changed file is broken, the last good tour stays.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,26 +12,29 @@ use bevy::prelude::*;
 use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
 
 use super::PictureTourSystems;
-use super::asset::{TourAsset, TourLoader};
+use super::asset::{BakedTourLoader, TourAsset, TourLoader};
 use super::camera::TourPath;
 use super::material::{ColorPolicy, TourMaterial};
 use super::spawn::{self, ShownTour, TourAssets};
 use crate::assemble::AssembleError;
 use crate::assemble::AssembledTour;
+use crate::assemble::TourSource;
 use crate::assemble::assemble;
+use crate::maps::{Fill, MapOptions};
 use crate::tour::CameraPath;
-use crate::tour::Tour;
 
 /// A tour in the game's world: spawn it with any `Transform`; its parts become children. Despawn it to be rid of all.
 #[derive(Component, Clone, Debug)]
 #[require(Transform, Visibility, ColorPolicy)]
 pub struct PictureTour(pub Handle<TourAsset>);
 
-/// A tour is shown from now on; on the tour's entity.
+/// A tour is shown from now on, or was refined; on the tour's entity.
 #[derive(EntityEvent, Clone, Debug)]
 pub struct TourReady {
     /// The tour's entity.
     pub entity: Entity,
+    /// Whether this is a preview: finer maps are being built and will take its place, on the same entities.
+    pub preview: bool,
 }
 
 /// A tour could not be loaded, solved or built; what was shown before stays.
@@ -52,6 +55,39 @@ struct BuiltFrom(AssetId<TourAsset>);
 struct Building {
     task: Task<Result<AssembledTour, AssembleError>>,
     wanted: Arc<AtomicBool>,
+    stage: Stage,
+}
+
+/// What a tour's build is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// To be shown at once, and refined.
+    Preview,
+    /// To replace a preview, on the same entities.
+    Refined,
+    /// To be shown as it is.
+    Whole,
+}
+
+impl Stage {
+    /// The first build of a tour whose maps are wanted like this, and how it is made.
+    fn first(options: &MapOptions) -> (Self, MapOptions) {
+        match options.fill {
+            Fill::Patches => (Self::Preview, MapOptions::PREVIEW),
+            Fill::Smooth => (Self::Whole, *options),
+        }
+    }
+}
+
+impl Building {
+    fn start(source: &Arc<TourSource>, options: MapOptions, stage: Stage) -> Self {
+        let source = Arc::clone(source);
+        let wanted = Arc::new(AtomicBool::new(true));
+        let goes_on = Arc::clone(&wanted);
+        let task = AsyncComputeTaskPool::get()
+            .spawn(async move { assemble(&source, &options, &|_, _| goes_on.load(Ordering::Relaxed)) });
+        Self { task, wanted, stage }
+    }
 }
 
 impl Drop for Building {
@@ -61,7 +97,7 @@ impl Drop for Building {
 }
 
 pub(super) fn plugin(app: &mut App) {
-    app.init_asset::<TourAsset>().init_asset_loader::<TourLoader>();
+    app.init_asset::<TourAsset>().init_asset_loader::<TourLoader>().init_asset_loader::<BakedTourLoader>();
     app.add_systems(PostStartup, build_now);
     app.add_systems(Update, (start_building, finish_building).chain().in_set(PictureTourSystems::Input));
     app.add_systems(Update, report_failures.in_set(PictureTourSystems::Input));
@@ -85,11 +121,16 @@ fn build_now(
     mut assets: TourAssets,
 ) {
     for root in &tours {
-        if let Some(TourAsset(source)) = sources.get(&root.1.0) {
-            let built = assemble(source, &|_, _| true);
-            commands.entity(root.0).try_insert(BuiltFrom(root.1.0.id()));
-            finish(&mut commands, &mut assets, root, &source.tour, built);
-        }
+        let Some(asset) = sources.get(&root.1.0) else { continue };
+        commands.entity(root.0).try_insert(BuiltFrom(root.1.0.id()));
+        let (stage, built) = match asset {
+            TourAsset::Built(_, built) => (Stage::Whole, Ok(Arc::clone(built))),
+            TourAsset::Source(source, options) => {
+                let (stage, options) = Stage::first(options);
+                (stage, assemble(source, &options, &|_, _| true).map(Arc::new))
+            }
+        };
+        finish(&mut commands, &mut assets, root, asset, stage, built);
     }
 }
 
@@ -97,7 +138,9 @@ fn build_now(
 fn start_building(
     mut commands: Commands,
     tours: Query<(Entity, &PictureTour, Option<&BuiltFrom>)>,
+    roots: Query<Root>,
     sources: Res<Assets<TourAsset>>,
+    mut assets: TourAssets,
     mut events: MessageReader<AssetEvent<TourAsset>>,
 ) {
     let changed: Vec<AssetId<TourAsset>> = events
@@ -111,13 +154,20 @@ fn start_building(
         let id = tour.0.id();
         // An asset's first event comes after the frame that could already build it, so it tells nothing.
         let is_new = built.is_none_or(|built| built.0 != id) || changed.contains(&id);
-        let Some(TourAsset(source)) = sources.get(id).filter(|_| is_new) else { continue };
-        let source = Arc::clone(source);
-        let wanted = Arc::new(AtomicBool::new(true));
-        let goes_on = Arc::clone(&wanted);
-        let task = AsyncComputeTaskPool::get()
-            .spawn(async move { assemble(&source, &|_, _| goes_on.load(Ordering::Relaxed)) });
-        commands.entity(entity).try_insert((Building { task, wanted }, BuiltFrom(id)));
+        let Some(asset) = sources.get(id).filter(|_| is_new) else { continue };
+        commands.entity(entity).try_insert(BuiltFrom(id));
+        match asset {
+            TourAsset::Source(source, options) => {
+                let (stage, options) = Stage::first(options);
+                commands.entity(entity).try_insert(Building::start(source, options, stage));
+            }
+            TourAsset::Built(_, built) => {
+                commands.entity(entity).try_remove::<Building>();
+                if let Ok(root) = roots.get(entity) {
+                    finish(&mut commands, &mut assets, root, asset, Stage::Whole, Ok(Arc::clone(built)));
+                }
+            }
+        }
     }
 }
 
@@ -132,9 +182,9 @@ fn finish_building(
         let Some(built) = check_ready(&mut building.task) else { continue };
         commands.entity(entity).try_remove::<Building>();
         if let Ok(root) = tours.get(entity)
-            && let Some(TourAsset(source)) = sources.get(&root.1.0)
+            && let Some(asset) = sources.get(&root.1.0)
         {
-            finish(&mut commands, &mut assets, root, &source.tour, built);
+            finish(&mut commands, &mut assets, root, asset, building.stage, built.map(Arc::new));
         }
     }
 }
@@ -149,26 +199,38 @@ fn finish(
         Option<&RenderLayers>,
         Option<&ShownTour>,
     ),
-    tour: &Tour,
-    built: Result<AssembledTour, AssembleError>,
+    asset: &TourAsset,
+    stage: Stage,
+    built: Result<Arc<AssembledTour>, AssembleError>,
 ) {
-    match built {
-        Ok(built) => {
-            for remark in built.remarks.iter().chain(&built.solution.report.remarks) {
-                info!("{remark}");
-            }
-            spawn::show(commands, assets, entity, Arc::new(built), *policy, layers, before);
-            match tour.path.as_ref().and_then(CameraPath::way) {
-                Some(path) => commands.entity(entity).try_insert(TourPath(path)),
-                None => commands.entity(entity).try_remove::<TourPath>(),
-            };
-            commands.trigger(TourReady { entity });
-        }
+    let built = match built {
+        Ok(built) => built,
         Err(error) => {
             error!("{error}");
             commands.trigger(TourFailed { entity, error: error.to_string() });
+            return;
+        }
+    };
+    let preview = stage == Stage::Preview;
+    match before {
+        Some(shown) if stage == Stage::Refined => spawn::refine(commands, assets, entity, built, shown),
+        _ => {
+            for remark in built.remarks.iter().chain(&built.solution.report.remarks) {
+                info!("{remark}");
+            }
+            spawn::show(commands, assets, entity, built, *policy, layers, before);
+            match asset.tour().path.as_ref().and_then(CameraPath::way) {
+                Some(path) => commands.entity(entity).try_insert(TourPath(path)),
+                None => commands.entity(entity).try_remove::<TourPath>(),
+            };
         }
     }
+    if let TourAsset::Source(source, options) = asset
+        && preview
+    {
+        commands.entity(entity).try_insert(Building::start(source, *options, Stage::Refined));
+    }
+    commands.trigger(TourReady { entity, preview });
 }
 
 /// Passes on what the asset loader found.

@@ -12,7 +12,7 @@ mod sort;
 mod spawn;
 mod views;
 
-pub use asset::{TourAsset, TourLoadError};
+pub use asset::{BakedTourLoadError, TourAsset, TourLoadError};
 pub use camera::{Guide, TourCamera, TourCameraState, TourPath, TourProjection};
 pub use load::{PictureTour, TourFailed, TourReady};
 pub use material::ColorPolicy;

@@ -10,7 +10,7 @@ use bevy::mesh::{Indices, PrimitiveTopology};
 use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
-use super::atlas::{self, Place};
+use super::atlas::{self, Atlas, Place};
 use super::material::{ColorPolicy, TourMaterial, TourUniform};
 use super::records::{Records, ViewRecord};
 use crate::assemble::AssembledTour;
@@ -43,6 +43,9 @@ pub(super) struct ShownTour {
     pub image: Handle<Image>,
     /// Children, for a clean replacement.
     pub parts: Vec<Entity>,
+    /// What `parts` read: a texture map a component, in the scene's order, and all reflection maps in one.
+    pub textures: Vec<Handle<Image>>,
+    pub atlas: Option<Handle<Image>>,
 }
 
 /// The assets a tour is spawned into.
@@ -57,6 +60,13 @@ pub(super) struct TourAssets<'w> {
 /// What every device that Bevy runs on can hold.
 const SMALLEST_LIMIT: u32 = 2048;
 
+impl TourAssets<'_> {
+    /// The largest side of a texture.
+    fn largest(&self) -> u32 {
+        self.device.as_ref().map_or(SMALLEST_LIMIT, |device| device.limits().max_texture_dimension_2d)
+    }
+}
+
 /// Replaces what is shown of a tour.
 pub(super) fn show(
     commands: &mut Commands,
@@ -70,18 +80,11 @@ pub(super) fn show(
     for &part in before.iter().flat_map(|shown| &shown.parts) {
         commands.entity(part).try_despawn();
     }
-    let largest =
-        assets.device.as_ref().map_or(SMALLEST_LIMIT, |device| device.limits().max_texture_dimension_2d);
+    let largest = assets.largest();
     let scene = &tour.scene;
     let picture = scene.camera.intrinsics.size;
-    let trimmed: Vec<Option<Cow<Layer>>> = tour
-        .maps
-        .components
-        .iter()
-        .map(|maps| maps.reflection.as_ref().map(|map| atlas::trimmed(map, picture, largest)))
-        .collect();
-    let maps: Vec<Option<&Layer>> = trimmed.iter().map(Option::as_deref).collect();
-    let atlas = atlas::pack(&maps, largest);
+    let (maps, atlas) = packed(&tour, largest);
+    let maps: Vec<Option<&Layer>> = maps.iter().map(Option::as_deref).collect();
     if atlas.scale < 1.0 {
         warn!(
             "the reflection maps are larger than this device's textures ({largest} px): they are scaled to {:.0} %, \
@@ -97,16 +100,19 @@ pub(super) fn show(
     let image = assets.images.add(records.image());
     let mut spawner = Spawner { commands, root, layers, parts: Vec::new() };
 
+    let mut textures = Vec::with_capacity(scene.components.len());
     for (index, component) in scene.components.iter().enumerate() {
         let layer = &*atlas::trimmed(&tour.maps.components[index].texture, picture, largest);
         let infinite = component.surface == Surface::Infinity;
         let (origin, size) = (layer.origin.as_vec2(), layer.size.as_vec2());
         let placed = Vec4::new(origin.x, origin.y, size.x, size.y);
         let uniform = TourUniform::new(scene, index, placed, infinite);
+        let map = assets.images.add(texture(layer, largest));
+        textures.push(map.clone());
         let material = TourMaterial {
             tour: uniform,
             records: image.clone(),
-            map: assets.images.add(texture(layer, largest)),
+            map,
             policy,
             depth_only: false,
             water: false,
@@ -116,13 +122,13 @@ pub(super) fn show(
         let material = assets.materials.add(material);
         spawner.part(&component.name, TourPart::Component(index), mesh, material, depth, infinite);
     }
-    if scene.water {
+    let atlas = scene.water.then(|| assets.images.add(image_of(atlas.size, &atlas.texels)));
+    if let Some(map) = &atlas {
         let uniform = TourUniform::new(scene, 0, Vec4::ONE, false);
-        let size = Extent3d { width: atlas.size.x, height: atlas.size.y, depth_or_array_layers: 1 };
         let material = TourMaterial {
             tour: uniform,
             records: image.clone(),
-            map: assets.images.add(image_of(size, atlas.texels.as_flattened().to_vec())),
+            map: map.clone(),
             policy,
             depth_only: false,
             water: true,
@@ -151,9 +157,47 @@ pub(super) fn show(
             }
         }
     });
-    commands
-        .entity(root)
-        .try_insert((SolvedTour(tour), ShownTour { views: Vec::new(), records, image, parts }));
+    let shown = ShownTour { views: Vec::new(), records, image, parts, textures, atlas };
+    commands.entity(root).try_insert((SolvedTour(tour), shown));
+}
+
+/// Replaces the maps of a shown tour by finer ones of the same scene; entities, materials and images stay.
+pub(super) fn refine(
+    commands: &mut Commands,
+    assets: &mut TourAssets,
+    root: Entity,
+    tour: Arc<AssembledTour>,
+    shown: &ShownTour,
+) {
+    let largest = assets.largest();
+    let picture = tour.scene.camera.intrinsics.size;
+    let mut replace = |handle: &Handle<Image>, image: Image| {
+        if let Some(mut old) = assets.images.get_mut(handle) {
+            *old = image;
+        }
+    };
+    for (handle, maps) in shown.textures.iter().zip(&tour.maps.components) {
+        replace(handle, texture(&atlas::trimmed(&maps.texture, picture, largest), largest));
+    }
+    if let Some(handle) = &shown.atlas {
+        let (_, atlas) = packed(&tour, largest);
+        replace(handle, image_of(atlas.size, &atlas.texels));
+    }
+    commands.entity(root).try_insert(SolvedTour(tour));
+}
+
+/// All reflection maps of a tour, as far as a device's textures hold them, and where they lie in one texture.
+fn packed(tour: &AssembledTour, largest: u32) -> (Vec<Option<Cow<'_, Layer>>>, Atlas) {
+    let picture = tour.scene.camera.intrinsics.size;
+    let maps: Vec<Option<Cow<Layer>>> = tour
+        .maps
+        .components
+        .iter()
+        .map(|maps| maps.reflection.as_ref().map(|map| atlas::trimmed(map, picture, largest)))
+        .collect();
+    let borrowed: Vec<Option<&Layer>> = maps.iter().map(Option::as_deref).collect();
+    let atlas = atlas::pack(&borrowed, largest);
+    (maps, atlas)
 }
 
 struct Spawner<'a, 'w, 's> {
@@ -251,15 +295,14 @@ fn texture(layer: &Layer, largest: u32) -> Image {
         );
     }
     let (size, texels) = atlas::scaled_layer(layer, scale);
-    image_of(
-        Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
-        texels.as_flattened().to_vec(),
-    )
+    image_of(size, &texels)
 }
 
-fn image_of(size: Extent3d, data: Vec<u8>) -> Image {
+fn image_of(size: UVec2, texels: &[[u8; 4]]) -> Image {
+    let extent = Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 };
     let format = TextureFormat::Rgba8UnormSrgb;
-    let mut image = Image::new(size, TextureDimension::D2, data, format, RenderAssetUsages::RENDER_WORLD);
+    let data = texels.as_flattened().to_vec();
+    let mut image = Image::new(extent, TextureDimension::D2, data, format, RenderAssetUsages::RENDER_WORLD);
     image.sampler = ImageSampler::linear();
     image
 }

@@ -4,14 +4,14 @@
 //! [`super::solve`] checks them before anything else.
 
 use glam::UVec2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::picture::PicturePoint;
 use crate::tour::Method;
 use crate::tour::Support;
 
 /// All evidence about one picture.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Annotations {
     /// Width and height of the picture as used, pixels.
     pub size: UVec2,
@@ -51,7 +51,7 @@ impl Annotations {
 }
 
 /// What is known of the focal length.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum FocalLength {
     /// Known, in pixels.
     Known(f64),
@@ -69,7 +69,7 @@ pub enum FocalLength {
 }
 
 /// The one length that turns ratios into meters.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Scale {
     /// The camera's height above the water.
     HeightAboveWater {
@@ -94,7 +94,7 @@ pub enum Scale {
 }
 
 /// A vertical plane through a contact line.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AnnotatedPlane {
     /// As the tour calls it.
     pub name: String,
@@ -105,7 +105,7 @@ pub struct AnnotatedPlane {
 }
 
 /// What is known of the background's distance.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum BackgroundHint {
     /// Meters, above 0.
     Distance(f64),
@@ -116,7 +116,7 @@ pub enum BackgroundHint {
 }
 
 /// Which plane a reflection pair lies on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum PairPlane {
     /// At a depth of its own.
     Free,
@@ -127,7 +127,7 @@ pub enum PairPlane {
 }
 
 /// A point and where the water shows it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AnnotatedPair {
     /// As the tour calls it.
     pub name: String,

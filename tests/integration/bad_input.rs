@@ -7,6 +7,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use bevy_picture_tour::assemble::{TourSource, assemble};
+use bevy_picture_tour::maps::MapOptions;
 use bevy_picture_tour::picture::{PngPixels, save_png};
 use glam::UVec2;
 
@@ -109,7 +110,7 @@ fn the_tour_that_is_spoiled_is_sound() {
     write_sound(folder.path());
     let source = TourSource::open(&folder.path().join("lake.tour.ron"));
     let source = source.unwrap_or_else(|problems| panic!("{problems}"));
-    assemble(&source, &|_, _| true).unwrap_or_else(|error| panic!("{error}"));
+    assemble(&source, &MapOptions::default(), &|_, _| true).unwrap_or_else(|error| panic!("{error}"));
 }
 
 #[test]

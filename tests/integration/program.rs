@@ -71,6 +71,38 @@ fn the_demo_has_no_problems_and_says_what_was_assumed() {
 }
 
 #[test]
+fn a_baked_tour_is_used_while_it_is_fresh_and_told_when_it_is_not() {
+    let folder = folder_with_tour();
+    let render = |to: &str| run(folder.path(), &["render", "pond.tour.ron", "--out", to, "--reference"]);
+    assert_eq!(render("built").status.code(), Some(0));
+    let made = run(folder.path(), &["bake", "pond.tour.ron"]);
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    let baked = folder.path().join("pond.tour.baked");
+    let sound = fs::read(&baked).unwrap();
+    assert!(stdout(&run(folder.path(), &["bake", "pond.tour.ron"])).contains("is fresh"));
+
+    let frame = |from: &str| png(&folder.path().join(from).join("first_view.png"));
+    let from_baked = render("baked");
+    assert_eq!(stderr(&from_baked), "");
+    assert_eq!(frame("baked"), frame("built"));
+
+    let mut damaged = sound.clone();
+    let last = damaged.len() - 1;
+    damaged[last] ^= 1;
+    fs::write(&baked, damaged).unwrap();
+    let told = stderr(&render("damaged"));
+    assert!(told.contains("pond.tour.baked is not used") && told.contains("damaged"), "{told}");
+    assert_eq!(frame("damaged"), frame("built"));
+
+    fs::write(&baked, sound).unwrap();
+    let picture = fs::read(folder.path().join("pond.png")).unwrap();
+    // A byte behind the picture's end changes nothing but the file.
+    fs::write(folder.path().join("pond.png"), [picture, vec![0]].concat()).unwrap();
+    let told = stderr(&render("stale"));
+    assert!(told.contains("stale") && told.contains("picture-tour bake"), "{told}");
+}
+
+#[test]
 fn a_new_tour_checks_and_is_not_overwritten() {
     let folder = folder_with_tour();
     let before = fs::read(folder.path().join("pond.tour.ron")).unwrap();

@@ -2,6 +2,7 @@
 
 use bevy_picture_tour::assemble::{AssembledTour, assemble};
 use bevy_picture_tour::camera::{CameraPose, PinholeCamera};
+use bevy_picture_tour::maps::MapOptions;
 use bevy_picture_tour::scene::Surface;
 use bevy_picture_tour::solve::Label;
 use bevy_picture_tour::trace::Reference;
@@ -11,7 +12,8 @@ use glam::DVec3;
 use crate::support::made_scene;
 
 fn built() -> AssembledTour {
-    assemble(&made_scene::source(), &|_, _| true).unwrap_or_else(|error| panic!("{error}"))
+    assemble(&made_scene::source(), &MapOptions::PREVIEW, &|_, _| true)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 #[test]

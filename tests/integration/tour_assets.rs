@@ -3,6 +3,10 @@
 use std::fs;
 
 use bevy::prelude::*;
+use bevy_picture_tour::assemble::{TourOnDisk, assemble};
+use bevy_picture_tour::bake;
+use bevy_picture_tour::maps::MapOptions;
+use bevy_picture_tour::trace::Reference;
 use bevy_picture_tour::trace::compare::Comparison;
 
 use crate::support::stage::Stage;
@@ -21,6 +25,69 @@ fn a_file_becomes_a_tour_that_shows_its_picture() {
         Comparison::of(&stage.shot(&target, made_scene::SIZE), &made_scene::source().picture).unwrap();
     assert!(found.max_code_difference <= 1, "{} codes off at worst", found.max_code_difference);
     assert_eq!(stage.heard().ready, [root], "it was built once");
+    assert_eq!(stage.heard().previews, [root], "and shown before as a preview");
+}
+
+#[test]
+fn a_preview_is_refined_on_the_same_entities() {
+    let Some(_gpu) = adapter() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    made_scene::write_to(folder.path());
+    let mut stage = Stage::with_assets_of(folder.path());
+    let root = stage.tour_of("lake.tour.ron");
+    let target = stage.camera(root, made_scene::SIZE, Msaa::Off);
+    stage.wait("the preview", |stage| !stage.heard().previews.is_empty());
+    let shown = stage.descendants(root);
+    stage.wait("the refined tour", |stage| !stage.heard().ready.is_empty());
+    stage.settle();
+    assert_eq!(stage.descendants(root), shown);
+    // What the shaders read now is what was refined: where the picture does not hold, the frame follows the new maps.
+    let solved = stage.solved(root).expect("it is shown").0.clone();
+    let mut moved = solved.scene.camera;
+    moved.pose.position.x += 0.8;
+    stage.look_from(moved.pose);
+    let frame = stage.shot(&target, made_scene::SIZE);
+    let traced = Reference::new(&solved.scene, &solved.maps).render(&moved, 1);
+    let found = Comparison::of(&frame, &traced).unwrap();
+    assert!(found.share_within(3) > 0.999, "{} of the frame within 3 codes", found.share_within(3));
+}
+
+#[test]
+fn a_baked_tour_is_shown_without_its_picture() {
+    let Some(_gpu) = adapter() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    made_scene::write_to(folder.path());
+    let ron = folder.path().join("lake.tour.ron");
+    let disk = TourOnDisk::open(&ron).unwrap();
+    let source = disk.source().unwrap();
+    let options = MapOptions::default();
+    let built = assemble(&source, &options, &|_, _| true).unwrap();
+    let fingerprint = bake::fingerprint(&disk.tour, &options, &|file| disk.read(file)).unwrap();
+    bake::save(&bake::baked_path(&ron), &disk.tour, &source, &built, fingerprint).unwrap();
+
+    // Beside its tour it saves the building, and so it does alone.
+    for (file, alone) in [("lake.tour.ron", false), ("lake.tour.baked", true)] {
+        if alone {
+            fs::remove_file(folder.path().join(made_scene::files()[0].0.as_str())).unwrap();
+            fs::remove_file(&ron).unwrap();
+        }
+        let mut stage = Stage::with_assets_of(folder.path());
+        let root = stage.tour_of(file);
+        stage.wait("the baked tour", |stage| !stage.heard().ready.is_empty());
+        assert!(stage.heard().previews.is_empty(), "{file} was built instead of read");
+        assert_eq!(*stage.solved(root).expect("it is shown").0, built, "{file}");
+    }
+
+    let baked = folder.path().join("lake.tour.baked");
+    let mut bytes = fs::read(&baked).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&baked, bytes).unwrap();
+    let mut stage = Stage::with_assets_of(folder.path());
+    stage.tour_of("lake.tour.baked");
+    stage.wait("the failure", |stage| !stage.heard().failed.is_empty());
+    let error = &stage.heard().failed[0].1;
+    assert!(error.contains("damaged") && error.contains("picture-tour bake"), "{error}");
 }
 
 #[test]

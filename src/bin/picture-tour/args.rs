@@ -49,6 +49,17 @@ pub(crate) enum Command {
     },
     /// Write a tour file to start from, with comments that tell what to fill in
     New(NewArguments),
+    /// Build all layers of a tour once, so that it opens at once from then on
+    ///
+    /// NAME.tour.ron gets NAME.tour.baked beside it. It is used as long as picture, masks, marks and program stay the
+    /// same; a game can load it alone.
+    Bake {
+        /// The tour to bake
+        tour: PathBuf,
+        /// Bake again though the baked file is fresh
+        #[arg(long)]
+        force: bool,
+    },
 }
 
 #[derive(Debug, Args)]

@@ -3,6 +3,7 @@
 //! Exit status: 0 done, 1 problems found in a tour, 2 could not run. Results go to stdout, errors to stderr.
 
 mod args;
+mod bake;
 mod check;
 mod demo;
 mod failure;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Check { tour, json }) => check::run(tour.as_deref(), json),
         Some(Command::New(arguments)) => new::run(&arguments),
+        Some(Command::Bake { tour, force }) => bake::run(&tour, force),
     };
     done.unwrap_or_else(|failure| {
         // When stderr is closed as well there is nobody left to tell.

@@ -1,31 +1,39 @@
 //! From the TOUR on the command line to what the library makes of it.
 
 use std::fs::File;
+use std::io::Write;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 use bevy_picture_tour::assemble::AssembleError;
 use bevy_picture_tour::assemble::AssembledTour;
-use bevy_picture_tour::assemble::TourSource;
+use bevy_picture_tour::assemble::TourOnDisk;
 use bevy_picture_tour::assemble::assemble;
+use bevy_picture_tour::bake;
+use bevy_picture_tour::bake::Baked;
+use bevy_picture_tour::maps::MapOptions;
+use bevy_picture_tour::plugin::TourAsset;
 use bevy_picture_tour::tour::Problem;
 use bevy_picture_tour::tour::Problems;
+use glam::UVec2;
 use indicatif::ProgressBar;
 use indicatif::ProgressStyle;
 
 use crate::demo;
 use crate::failure::Failure;
 
-/// A tour and its files.
+/// A tour to be shown.
 #[derive(Debug)]
 pub(crate) struct Opened {
     /// What messages call it.
     pub(crate) name: String,
-    /// The tour with its picture and masks.
-    pub(crate) source: TourSource,
+    /// The tour with its picture and masks, or baked.
+    pub(crate) asset: TourAsset,
 }
 
-/// Reads a tour and its files; the demo when there is no path.
+/// Opens a tour: baked, if a fresh baked file lies beside it, else with its files; the demo when there is no path. A
+/// stale or broken baked file is told on stderr.
 ///
 /// # Errors
 ///
@@ -34,42 +42,89 @@ pub(crate) struct Opened {
 pub(crate) fn open(tour: Option<&Path>) -> Result<Opened, Failure> {
     let Some(path) = tour else {
         let source = demo::source().map_err(Failure::Problems)?;
-        return Ok(Opened { name: demo::NAME.to_owned(), source });
+        return Ok(Opened { name: demo::NAME.to_owned(), asset: Arc::new(source).into() });
     };
     let name = path.display().to_string();
+    let disk = on_disk(path)?;
+    let asset = match fresh_bake(path, &disk) {
+        Ok(baked) => baked.with_tour(&disk.tour).into(),
+        Err(reason) => {
+            if let Some(reason) = reason {
+                // When stderr is closed nobody listens; the tour is built all the same.
+                let _ = writeln!(std::io::stderr().lock(), "picture-tour: {reason}");
+            }
+            Arc::new(disk.source().map_err(Failure::Problems)?).into()
+        }
+    };
+    Ok(Opened { name, asset })
+}
+
+/// Reads a tour's document.
+///
+/// # Errors
+///
+/// As [`open`].
+pub(crate) fn on_disk(path: &Path) -> Result<TourOnDisk, Failure> {
+    let name = path.display();
     let readable = File::open(path).and_then(|file| file.metadata());
     match readable {
-        Err(error) => {
-            return Err(Failure::CannotRun(format!(
-                "{name} cannot be opened ({error}); check the path, or write a tour with `picture-tour new PICTURE`"
-            )));
-        }
+        Err(error) => Err(Failure::CannotRun(format!(
+            "{name} cannot be opened ({error}); check the path, or write a tour with `picture-tour new PICTURE`"
+        ))),
         Ok(metadata) if metadata.is_dir() => {
-            return Err(Failure::CannotRun(format!("{name} is a folder; name the .tour.ron file in it")));
+            Err(Failure::CannotRun(format!("{name} is a folder; name the .tour.ron file in it")))
         }
-        Ok(_) => {}
+        Ok(_) => TourOnDisk::open(path).map_err(Failure::Problems),
     }
-    let source = TourSource::open(path).map_err(Failure::Problems)?;
-    Ok(Opened { name, source })
+}
+
+/// The baked tour beside a tour's file; or why there is none to use, unless it was never made.
+pub(crate) fn fresh_bake(path: &Path, disk: &TourOnDisk) -> Result<Baked, Option<String>> {
+    let baked = bake::baked_path(path);
+    let Ok(bytes) = std::fs::read(&baked) else { return Err(None) };
+    let told = |reason: String| Some(format!("{} is not used: {reason}", baked.display()));
+    let found = bake::fingerprint_of(&bytes).map_err(|error| told(error.to_string()))?;
+    // Files that cannot be read are told when the tour is built.
+    let wanted =
+        bake::fingerprint(&disk.tour, &MapOptions::default(), &|file| disk.read(file)).map_err(|_| None)?;
+    if found != wanted {
+        return Err(told(
+            "it is stale, the tour, its files or this program changed since; run `picture-tour bake` again"
+                .into(),
+        ));
+    }
+    bake::decode(&bytes).map_err(|error| told(error.to_string()))
 }
 
 impl Opened {
-    /// Solves the picture and builds the maps; `stop` is asked between the steps.
+    /// The size of the picture that is used, pixels.
+    pub(crate) fn picture_size(&self) -> UVec2 {
+        match &self.asset {
+            TourAsset::Source(source, _) => source.picture.size(),
+            TourAsset::Built(_, built) => built.scene.camera.intrinsics.size,
+        }
+    }
+
+    /// What was baked; or else solves the picture and builds the maps, and asks `stop` between the steps.
     ///
     /// # Errors
     ///
     /// [`Failure::Problems`] when the marks do not fix a camera, [`Failure::CannotRun`] when stopped.
-    pub(crate) fn assemble(&self, stop: &dyn Fn() -> bool) -> Result<AssembledTour, Failure> {
-        let bar = ProgressBar::new(100).with_style(style("{msg:>26} [{bar:30}]"));
+    pub(crate) fn assemble(&self, stop: &dyn Fn() -> bool) -> Result<Arc<AssembledTour>, Failure> {
+        let (source, options) = match &self.asset {
+            TourAsset::Built(_, built) => return Ok(Arc::clone(built)),
+            TourAsset::Source(source, options) => (source, options),
+        };
+        let bar = ProgressBar::new(100).with_style(style("{msg:>46} [{bar:30}] {elapsed}"));
         bar.enable_steady_tick(Duration::from_millis(100));
         let progress = |share: f32, step: &str| {
             bar.set_position((100.0 * share) as u64);
             bar.set_message(step.to_owned());
             !stop()
         };
-        let assembled = assemble(&self.source, &progress);
+        let assembled = assemble(source, options, &progress);
         bar.finish_and_clear();
-        assembled.map_err(|error| match error {
+        assembled.map(Arc::new).map_err(|error| match error {
             AssembleError::Cancelled => Failure::CannotRun("stopped before the scene was built".to_owned()),
             error => self.unsolved(&error.to_string()),
         })

@@ -28,10 +28,10 @@ static STOP: AtomicBool = AtomicBool::new(false);
 pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
     watch_for_ctrl_c()?;
     let opened = open::open(arguments.tour.as_deref())?;
-    let frames = frames::planned(arguments, &opened.source.tour)?;
+    let frames = frames::planned(arguments, opened.asset.tour())?;
     prepare_folder(&arguments.out)?;
 
-    let size = arguments.size.unwrap_or(opened.source.picture.size()).min(UVec2::splat(MAX_SIDE));
+    let size = arguments.size.unwrap_or(opened.picture_size()).min(UVec2::splat(MAX_SIDE));
     let stop = || STOP.load(Ordering::Relaxed);
     let mut renderer = Renderer::new(opened, size, arguments.samples, arguments.reference, &stop)?;
     let taken_by = renderer.taken_by();

@@ -11,6 +11,7 @@ use bevy_picture_tour::headless::HeadlessTour;
 use bevy_picture_tour::picture::Picture;
 use bevy_picture_tour::picture::color::linear_from_srgb3;
 use bevy_picture_tour::picture::color::srgb_from_linear3;
+use bevy_picture_tour::plugin::TourAsset;
 use bevy_picture_tour::trace::Reference;
 use glam::UVec2;
 
@@ -23,7 +24,7 @@ pub(crate) enum Renderer {
     /// On the graphics card, `side` x `side` times as many pixels as asked for, averaged.
     Gpu { tour: Box<HeadlessTour>, taken_by: PinholeCamera, side: u32 },
     /// On the processor, by the definition of right.
-    Reference { tour: Box<AssembledTour>, samples: u32 },
+    Reference { tour: Arc<AssembledTour>, samples: u32 },
 }
 
 impl Renderer {
@@ -36,30 +37,23 @@ impl Renderer {
         reference: bool,
         stop: &dyn Fn() -> bool,
     ) -> Result<Self, Failure> {
-        let by_reference = |opened: &Opened| {
-            let tour = Box::new(opened.assemble(stop)?);
-            Ok(Self::Reference { tour, samples })
-        };
+        let side = if reference { 1 } else { side_of(samples, size)? };
+        let built = opened.assemble(stop)?;
+        let by_reference = |tour| Ok(Self::Reference { tour, samples });
         if reference {
-            return by_reference(&opened);
+            return by_reference(built);
         }
-        let side = side_of(samples, size)?;
-        let source = Arc::new(opened.source);
-        match HeadlessTour::new(Arc::clone(&source), size * side, Transform::IDENTITY) {
-            Ok(mut tour) => {
-                let solved = tour.solved().ok_or_else(|| {
-                    Failure::CannotRun("the tour was not solved; render with --reference".to_owned())
-                })?;
-                Ok(Self::Gpu { tour: Box::new(tour), taken_by: solved.0.scene.camera, side })
-            }
+        let taken_by = built.scene.camera;
+        let asset = TourAsset::Built(opened.asset.tour().clone(), Arc::clone(&built));
+        match HeadlessTour::new(asset, size * side, Transform::IDENTITY) {
+            Ok(tour) => Ok(Self::Gpu { tour: Box::new(tour), taken_by, side }),
             Err(HeadlessError::NoAdapter) => {
                 writeln!(
                     std::io::stderr().lock(),
                     "no graphics adapter was found; rendering with the reference ray tracer instead"
                 )
                 .map_err(Failure::from)?;
-                let source = Arc::unwrap_or_clone(source);
-                by_reference(&Opened { name: opened.name, source })
+                by_reference(built)
             }
             Err(error) => Err(failure(&opened.name, &error)),
         }

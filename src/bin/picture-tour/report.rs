@@ -106,7 +106,7 @@ impl Report {
 
 impl Findings {
     fn of(assembled: &AssembledTour) -> Self {
-        let AssembledTour { solution, scene, maps, remarks } = assembled;
+        let AssembledTour { solution, scene, maps, remarks, .. } = assembled;
         let mut all_remarks = solution.report.remarks.clone();
         all_remarks
             .extend(remarks.iter().filter(|remark| !solution.report.remarks.contains(remark)).cloned());

@@ -9,17 +9,21 @@ use bevy::camera::RenderTarget;
 use bevy::prelude::*;
 use bevy::render::settings::WgpuSettings;
 use bevy_picture_tour::assemble::TourSource;
-use bevy_picture_tour::camera::Fit;
+use bevy_picture_tour::camera::{CameraPose, Fit};
 use bevy_picture_tour::headless;
+use bevy_picture_tour::maps::MapOptions;
 use bevy_picture_tour::picture::Picture;
 use bevy_picture_tour::plugin::{
-    Guide, PictureTour, PictureTourPlugin, SolvedTour, TourAsset, TourCamera, TourFailed, TourReady,
+    Guide, PictureTour, PictureTourPlugin, SolvedTour, TourAsset, TourCamera, TourCameraState, TourFailed,
+    TourReady,
 };
 
 /// What the plugin has told.
 #[derive(Resource, Default)]
 pub(crate) struct Heard {
-    /// Tours that became ready, in order.
+    /// Tours of which a preview was shown, in order.
+    pub(crate) previews: Vec<Entity>,
+    /// Tours that became ready for good, in order.
     pub(crate) ready: Vec<Entity>,
     /// Tours that failed, and why.
     pub(crate) failed: Vec<(Entity, String)>,
@@ -50,7 +54,10 @@ impl Stage {
         let mut app = headless::headless_app_with(assets, WgpuSettings::default())
             .unwrap_or_else(|error| panic!("{error}"));
         app.add_plugins(PictureTourPlugin).init_resource::<Heard>();
-        app.add_observer(|ready: On<TourReady>, mut heard: ResMut<Heard>| heard.ready.push(ready.entity));
+        app.add_observer(|ready: On<TourReady>, mut heard: ResMut<Heard>| {
+            let list = if ready.preview { &mut heard.previews } else { &mut heard.ready };
+            list.push(ready.entity);
+        });
         app.add_observer(|failed: On<TourFailed>, mut heard: ResMut<Heard>| {
             heard.failed.push((failed.entity, failed.error.clone()));
         });
@@ -60,7 +67,11 @@ impl Stage {
 
     /// Spawns a tour made in code.
     pub(crate) fn tour(&mut self, source: Arc<TourSource>, place: Transform) -> Entity {
-        let asset = self.app.world_mut().resource_mut::<Assets<TourAsset>>().add(TourAsset(source));
+        let asset = self
+            .app
+            .world_mut()
+            .resource_mut::<Assets<TourAsset>>()
+            .add(TourAsset::Source(source, MapOptions::PREVIEW));
         self.app.world_mut().spawn((PictureTour(asset), place)).id()
     }
 
@@ -87,6 +98,16 @@ impl Stage {
         };
         self.app.world_mut().spawn((looks, RenderTarget::from(target.clone()), more));
         target
+    }
+
+    /// Sets all cameras of tours to a pose, and lets nobody move them.
+    pub(crate) fn look_from(&mut self, pose: CameraPose) {
+        let world = self.app.world_mut();
+        let mut cameras = world.query::<(&mut TourCamera, &mut TourCameraState)>();
+        for (mut camera, mut state) in cameras.iter_mut(world) {
+            camera.guide = Guide::Still;
+            state.pose = Some(pose);
+        }
     }
 
     /// What the plugin has told so far.

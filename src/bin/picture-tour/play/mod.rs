@@ -7,7 +7,6 @@ mod tours;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use bevy::asset::AssetPlugin;
 use bevy::camera_controller::free_camera::FreeCameraPlugin;
@@ -15,7 +14,7 @@ use bevy::prelude::*;
 use bevy::window::WindowPlugin;
 use bevy_egui::{EguiPlugin, EguiPrimaryContextPass};
 use bevy_picture_tour::headless::adapter_exists;
-use bevy_picture_tour::plugin::{PictureTourPlugin, PictureTourSystems, TourCamera};
+use bevy_picture_tour::plugin::{PictureTourPlugin, PictureTourSystems, TourAsset, TourCamera};
 
 use crate::args::RenderArguments;
 use crate::failure::Failure;
@@ -33,9 +32,11 @@ const FRAMES: &str = "picture-tour-frames";
 pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
     let opened = open::open(tour.as_deref())?;
     // A tour that cannot be solved is told here, not in a black window.
-    let marks = bevy_picture_tour::assemble::annotations(&opened.source);
-    if let Err(error) = bevy_picture_tour::solve::solve(&marks) {
-        return Err(opened.unsolved(&error.to_string()));
+    if let TourAsset::Source(source, _) = &opened.asset {
+        let marks = bevy_picture_tour::assemble::annotations(source);
+        if let Err(error) = bevy_picture_tour::solve::solve(&marks) {
+            return Err(opened.unsolved(&error.to_string()));
+        }
     }
     let missing = match (display::exists(), adapter_exists()) {
         (true, true) => None,
@@ -43,7 +44,7 @@ pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
         (true, false) => Some("there is no graphics adapter"),
     };
     if let Some(missing) = missing {
-        return render_instead(tour, opened.source.tour.path.is_some(), missing);
+        return render_instead(tour, opened.asset.tour().path.is_some(), missing);
     }
     let name = opened.name.clone();
     let title = format!(
@@ -63,7 +64,7 @@ pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
             PictureTourPlugin,
         ))
         .insert_resource(ClearColor(Color::BLACK))
-        .insert_resource(tours::Current::new(tour, name, Arc::new(opened.source)))
+        .insert_resource(tours::Current::new(tour, name, opened.asset))
         .init_resource::<overlay::Overlay>()
         .add_systems(
             Startup,

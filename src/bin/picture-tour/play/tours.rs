@@ -1,14 +1,13 @@
 //! The tour in the window: shown, dropped in, read again when its file changes. A broken one leaves the last good one.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::SystemTime;
 
 use bevy::prelude::*;
 use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
 use bevy::window::FileDragAndDrop;
-use bevy_picture_tour::assemble::TourSource;
 use bevy_picture_tour::plugin::{PictureTour, TourAsset, TourFailed, TourReady};
+use bevy_picture_tour::tour::Tour;
 
 use super::overlay::Overlay;
 use crate::failure::Failure;
@@ -22,7 +21,7 @@ const LOOK_EVERY: f32 = 0.5;
 pub(super) struct Current {
     path: Option<PathBuf>,
     name: String,
-    source: Arc<TourSource>,
+    asset: TourAsset,
     handle: Handle<TourAsset>,
     /// When the newest of its files was written, as far as it was read.
     written: Option<SystemTime>,
@@ -38,9 +37,9 @@ struct Reread {
 }
 
 impl Current {
-    pub(super) fn new(path: Option<PathBuf>, name: String, source: Arc<TourSource>) -> Self {
-        let written = path.as_deref().and_then(|path| newest(path, &source));
-        Self { path, name, source, handle: Handle::default(), written, seconds: 0.0, reading: None }
+    pub(super) fn new(path: Option<PathBuf>, name: String, asset: TourAsset) -> Self {
+        let written = path.as_deref().and_then(|path| newest(path, asset.tour()));
+        Self { path, name, asset, handle: Handle::default(), written, seconds: 0.0, reading: None }
     }
 
     fn read(&mut self, path: PathBuf) {
@@ -53,9 +52,9 @@ impl Current {
 }
 
 /// When the newest of a tour's files was written.
-fn newest(path: &Path, source: &TourSource) -> Option<SystemTime> {
+fn newest(path: &Path, tour: &Tour) -> Option<SystemTime> {
     let folder = path.parent()?;
-    let files = source.tour.files().into_iter().map(|(_, file)| file.in_folder(folder));
+    let files = tour.files().into_iter().map(|(_, file)| file.in_folder(folder));
     let written = |file: PathBuf| std::fs::metadata(file).and_then(|metadata| metadata.modified()).ok();
     files.chain([path.to_owned()]).filter_map(written).max()
 }
@@ -66,7 +65,7 @@ pub(super) fn show_first(
     mut tours: ResMut<Assets<TourAsset>>,
     mut overlay: ResMut<Overlay>,
 ) {
-    current.handle = tours.add(TourAsset(Arc::clone(&current.source)));
+    current.handle = tours.add(current.asset.clone());
     commands.spawn(PictureTour(current.handle.clone()));
     overlay.say("Drag to look, wheel to step in, P for the path, H for all keys.");
 }
@@ -89,7 +88,7 @@ pub(super) fn watch(mut current: ResMut<Current>, time: Res<Time>) {
     }
     current.seconds = 0.0;
     let Some(path) = current.path.clone() else { return };
-    let written = newest(&path, &current.source);
+    let written = newest(&path, current.asset.tour());
     if written.is_some() && written != current.written {
         current.written = written;
         current.read(path);
@@ -106,14 +105,13 @@ pub(super) fn take_reread(
     current.reading = None;
     match opened {
         Ok(opened) => {
-            let source = Arc::new(opened.source);
             // What was written while it was read is read again.
-            current.written = newest(&path, &source).map(|written| written.min(began));
+            current.written = newest(&path, opened.asset.tour()).map(|written| written.min(began));
             current.path = Some(path);
             current.name = opened.name;
-            current.source = Arc::clone(&source);
+            current.asset = opened.asset.clone();
             overlay.problem = None;
-            if tours.insert(&current.handle, TourAsset(source)).is_err() {
+            if tours.insert(&current.handle, opened.asset).is_err() {
                 overlay.say("The tour could not be replaced; start the program anew with it.");
             }
         }
@@ -123,9 +121,12 @@ pub(super) fn take_reread(
     }
 }
 
-pub(super) fn ready(_ready: On<TourReady>, current: Res<Current>, mut overlay: ResMut<Overlay>) {
+pub(super) fn ready(ready: On<TourReady>, current: Res<Current>, mut overlay: ResMut<Overlay>) {
     overlay.problem = None;
-    if current.path.is_some() {
+    if ready.preview {
+        overlay
+            .say("A preview: what is hidden and beyond the frame is still being painted. H shows the keys.");
+    } else if current.path.is_some() {
         overlay.say(format!("{} - H shows the keys.", current.name));
     }
 }
