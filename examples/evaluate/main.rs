@@ -248,7 +248,7 @@ impl<'a> Renderer<'a> {
             return Ok(Self::Reference(Reference::new(&built.scene, &built.maps)));
         }
         let size = source.picture.size();
-        let tour = TourAsset::Built(source.tour.clone(), Arc::clone(built));
+        let tour = TourAsset::Built(Box::new(source.tour.clone()), Arc::clone(built));
         Ok(Self::Gpu(Box::new(HeadlessTour::new(tour, size, bevy::prelude::Transform::default())?)))
     }
 

@@ -48,15 +48,15 @@ pub(super) fn backdrops(
         );
     }
     let rest = said || taken;
-    match (&source.tour.sky, &source.sky) {
-        (Some(_), Some(_)) => found.push(backdrop("sky", BackdropPlace::Infinity)),
-        (Some(_), None) if rest => remarks.push(
+    let (sky, has_region) = (source.tour.sky.is_some(), source.sky.is_some());
+    // Without anything else to show what the bands leave, that is the sky.
+    if has_region || !rest {
+        found.push(backdrop("sky", BackdropPlace::Infinity));
+    } else if sky {
+        remarks.push(
             "nothing tells the sky from the background, so the sky stays a part of it; give `sky` a `region`"
                 .to_owned(),
-        ),
-        (None, _) if rest => {}
-        // Nothing else claims what the bands leave.
-        _ => found.push(backdrop("sky", BackdropPlace::Infinity)),
+        );
     }
     found
 }

@@ -50,7 +50,10 @@ pub(super) fn banks(
         tolerance *= 1.5;
         corners = waterlines(&feet, tolerance);
         if tolerance > f64::from(size.x) {
+            // So many gaps: the longest pieces count.
+            corners.sort_by(|a, b| (b[1].x() - b[0].x()).total_cmp(&(a[1].x() - a[0].x())));
             corners.truncate(MOST_WALLS);
+            corners.sort_by(|a, b| a[0].x().total_cmp(&b[0].x()));
         }
     }
     let mut level = ground.values().to_vec();
@@ -143,7 +146,8 @@ fn cut(
 ) -> Option<Mask> {
     let size = ground.size();
     let mut values = vec![0; level.len()];
-    let columns = left.x().floor() as u32..=(right.x().floor() as u32).min(size.x - 1);
+    let mut rest = level.to_vec();
+    let columns = left.x().floor() as u32..(right.x().ceil() as u32).min(size.x);
     for x in columns {
         let t = (f64::from(x) + 0.5 - left.x()) / (right.x() - left.x()).max(1.0);
         let foot = PicturePoint::new(f64::from(x) + 0.5, left.y() + t * (right.y() - left.y()));
@@ -154,10 +158,12 @@ fn cut(
             let cell = y as usize * size.x as usize + x as usize;
             let covered = f64::from(ground.get(x, y));
             values[cell] = (below * covered).round() as u8;
-            level[cell] = level[cell].min(((1.0 - below) * covered).round() as u8);
+            rest[cell] = rest[cell].min(((1.0 - below) * covered).round() as u8);
         }
     }
-    Mask::new(size, values).ok()
+    let mask = Mask::new(size, values).ok().filter(|mask| mask.bounds().is_some())?;
+    level.copy_from_slice(&rest);
+    Some(mask)
 }
 
 #[cfg(test)]

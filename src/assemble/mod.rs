@@ -8,6 +8,9 @@ mod source;
 pub use annotate::annotations;
 pub use source::{TourOnDisk, TourSource};
 
+use glam::UVec2;
+
+use crate::maps::Edge;
 use crate::maps::MapOptions;
 use crate::maps::Maps;
 use crate::maps::TourMasks;
@@ -96,14 +99,16 @@ impl PlacedTour {
     #[must_use]
     pub fn masks<'a>(&'a self, source: &'a TourSource) -> TourMasks<'a> {
         let objects = source.tour.objects.iter();
-        let outlined = objects.map(|object| matches!(object.outline, Region::Polygon(_)));
+        let edges = objects.map(|object| match object.outline {
+            Region::Polygon(_) => Edge::Outlined,
+            Region::Mask(_) => Edge::Mask,
+        });
         TourMasks {
             water: source.water.as_ref(),
             ground: self.level_ground.as_ref(),
             backdrops: backdrops::masks(source, &self.scene),
             billboards: source.objects.iter().chain(&self.banks).collect(),
-            // A bank's upper edge is a line that was computed.
-            outlined: outlined.chain(self.banks.iter().map(|_| false)).collect(),
+            edges: edges.chain(self.banks.iter().map(|_| Edge::Exact)).collect(),
         }
     }
 }
@@ -145,14 +150,16 @@ fn plan(source: &TourSource, solution: &Solution, remarks: &mut Vec<String>) -> 
             .objects
             .iter()
             .zip(&source.objects)
-            .filter_map(|(object, mask)| {
-                let bounds = mask.bounds()?;
-                Some(BillboardPlan {
+            .map(|(object, mask)| {
+                // Reading refuses empty masks; one made in code keeps its place among the others.
+                let [min, max] =
+                    mask.bounds().map_or([UVec2::ZERO, UVec2::ONE], |bounds| [bounds.min, bounds.max]);
+                BillboardPlan {
                     name: object.name.clone(),
                     support: object.support,
                     contact: object.contact,
-                    mask_box: [bounds.min.as_ivec2(), bounds.max.as_ivec2()],
-                })
+                    mask_box: [min.as_ivec2(), max.as_ivec2()],
+                }
             })
             .collect(),
     }

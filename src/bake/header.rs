@@ -115,7 +115,7 @@ fn check_layers(layers: impl Iterator<Item = (IVec2, UVec2)>) -> Result<(), Stri
     let mut sum = 0;
     for (origin, size) in layers {
         let far = origin.to_array().iter().any(|distance| distance.unsigned_abs() > LONGEST_SIDE);
-        if far || size.max_element() > LONGEST_SIDE {
+        if far || size.max_element() > LONGEST_SIDE || size.min_element() == 0 {
             return Err(format!("a layer of {size} pixels at {origin}"));
         }
         sum += bytes_of(size);

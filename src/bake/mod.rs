@@ -36,6 +36,8 @@ use std::path::{Path, PathBuf};
 use glam::UVec2;
 
 use crate::assemble::AssembledTour;
+use crate::maps::MapOptions;
+use crate::tour::RelativePath;
 use crate::tour::Tour;
 
 /// A baked tour, read back.
@@ -46,7 +48,7 @@ pub struct Baked {
     /// The tour in pixels of the part of the picture that is used, as a
     /// [`TourSource`](crate::assemble::TourSource) has it.
     pub tour: Tour,
-    /// What was baked, to the bit.
+    /// What was baked: plan and maps to the bit; the solution is solved again.
     pub built: AssembledTour,
     /// Width and height of the used part of the picture, pixels.
     pub picture_size: UVec2,
@@ -61,6 +63,39 @@ impl Baked {
     pub fn with_tour(self, tour: &Tour) -> Self {
         Self { tour: tour.in_pixels_of(self.uncropped_size), ..self }
     }
+}
+
+/// Why a baked tour is not used. Its text says what to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotFresh {
+    /// Made of something else.
+    #[error("it is stale: the tour, its files or this program changed since; run `picture-tour bake` again")]
+    Stale,
+    /// It cannot be read.
+    #[error(transparent)]
+    Broken(#[from] BakeError),
+    /// A file that the tour names cannot be read.
+    #[error("{0}")]
+    Unread(String),
+}
+
+/// Reads a tour's baked file if it is fresh: made of this tour, these files and options, by this program. `read` gets a
+/// path relative to the tour's folder.
+///
+/// # Errors
+///
+/// Why it is not used.
+pub fn fresh(
+    bytes: &[u8],
+    tour: &Tour,
+    options: &MapOptions,
+    read: &dyn Fn(&RelativePath) -> Result<Vec<u8>, String>,
+) -> Result<Baked, NotFresh> {
+    if fingerprint_of(bytes)? != fingerprint(tour, options, read).map_err(NotFresh::Unread)? {
+        return Err(NotFresh::Stale);
+    }
+    Ok(decode(bytes)?.with_tour(tour))
 }
 
 /// Where a tour's baked file lies: `lake.tour.baked` beside `lake.tour.ron`.

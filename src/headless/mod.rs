@@ -98,7 +98,7 @@ impl HeadlessTour {
             TourAsset::Source(source, options) => {
                 let built = assemble(&source, &options, &|_, _| true)
                     .map_err(|error| HeadlessError::Tour(error.to_string()))?;
-                TourAsset::Built(source.tour.clone(), Arc::new(built))
+                TourAsset::Built(Box::new(source.tour.clone()), Arc::new(built))
             }
             built @ TourAsset::Built(..) => built,
         };

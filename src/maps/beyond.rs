@@ -1,7 +1,7 @@
 //! Beyond the picture's border: maps reach a bit further, so that a camera may move without seeing where they end.
 //!
-//! What lies outside is folded in from inside (mirrored at the border), above the picture it fades smoothly; it is not
-//! known, and counted as missing.
+//! Coverage outside is folded in from inside (mirrored at the border); colors are filled like any hole, and counted as
+//! missing.
 
 use glam::{IVec2, UVec2};
 

@@ -1,7 +1,7 @@
 //! Which pixel of the picture belongs to which component, and where the water is seen.
 //!
-//! Masks in files are visible coverage. Above the last layer's contact line everything that nothing else covers is the
-//! last layer; below it, it is water, unless the masks leave it to a backdrop (what hangs under the contact line).
+//! Masks in files are visible coverage; `visible.rs` says who shows where no mask does. What nothing covers below the last
+//! layer's contact line is water.
 
 use glam::{IVec2, UVec2};
 use rayon::prelude::*;
@@ -18,7 +18,8 @@ use crate::scene::TourScene;
 /// The masks of a tour, all of the picture's size.
 #[derive(Clone, Debug)]
 pub struct TourMasks<'a> {
-    /// Visible water; without it all that is left below the last layer's contact line is water.
+    /// Visible water; without it all that is left below the contact line of the
+    /// backdrop without a mask is water.
     pub water: Option<&'a Mask>,
     /// Visible ground.
     pub ground: Option<&'a Mask>,
@@ -27,8 +28,19 @@ pub struct TourMasks<'a> {
     pub backdrops: Vec<Option<&'a Mask>>,
     /// Visible coverage of each billboard, in the scene's order.
     pub billboards: Vec<&'a Mask>,
-    /// Which billboards were outlined by hand: the picture shows where their edges really are.
-    pub outlined: Vec<bool>,
+    /// What is known of each billboard's edge.
+    pub edges: Vec<Edge>,
+}
+
+/// What is known of a mask's edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edge {
+    /// Drawn by hand: the picture shows where it really is.
+    Outlined,
+    /// As a mask file says: to be softened only where it is all or nothing.
+    Mask,
+    /// Computed.
+    Exact,
 }
 
 /// Who covers what.

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::coverage::is_above_contact;
 use super::matte::{Matte, MatteInput, matte};
-use super::{Grid, TourMasks};
+use super::{Edge, Grid, TourMasks};
 use crate::picture::Mask;
 use crate::picture::Picture;
 use crate::picture::color::linear_from_srgb;
@@ -48,12 +48,10 @@ pub(super) fn cut_out(
         colors: vec![None; scene.components.len()],
     };
     for (place, index) in billboards.enumerate() {
-        let (mask, outlined) =
-            (&masks.billboards[place], masks.outlined.get(place).copied().unwrap_or(false));
-        let share = match (outlined, is_hard(mask)) {
-            (true, _) => OUTLINED,
-            (false, true) => HARD,
-            (false, false) => continue,
+        let share = match masks.edges.get(place) {
+            Some(Edge::Outlined) => OUTLINED,
+            Some(Edge::Mask) if is_hard(masks.billboards[place]) => HARD,
+            _ => continue,
         };
         let what = format!("cutting out: {}", scene.components[index].name);
         let go_on = |done: f32| progress((place as f32 + done) / count, &what);

@@ -4,7 +4,7 @@
 //! known a hole goes on smoothly, and farther in it takes patches of what the same component shows elsewhere: smooth is
 //! nearest to the truth over the few pixels that a small move uncovers, and blur where more is seen.
 
-use glam::IVec2;
+use glam::{IVec2, UVec2};
 use rayon::prelude::*;
 
 use super::beyond::frame;
@@ -102,29 +102,44 @@ pub(super) fn filled_colors(
             }
         })
         .collect();
-    let size = picture.size().as_dvec2();
+    patch(&mut colors, &cells, picture.size(), index as u64, progress).then_some(colors)
+}
+
+/// Lets the holes of colors that are filled smoothly take patches from the sources, beyond a rim; whether it came to the
+/// end.
+pub(super) fn patch(
+    colors: &mut Grid<[f32; 3]>,
+    cells: &[Cell],
+    picture: UVec2,
+    seed: u64,
+    progress: &dyn Fn(f32) -> bool,
+) -> bool {
+    let (end, size) = (picture.as_ivec2(), picture.as_dvec2());
     let how = Options {
-        seed: index as u64,
+        seed,
         finest_level: usize::from(size.x * size.y > FULL_SEARCH * 1e6),
         ..Options::default()
     };
+    let width = colors.size.x as usize;
     let mut patched = colors.cells.clone();
-    if !inpaint(width, &mut patched, &cells, &how, progress) {
-        return None;
+    if !inpaint(width, &mut patched, cells, &how, progress) {
+        return false;
     }
-    let rims = [RIM_INSIDE, RIM_BEYOND].map(|rim| rim.map(|share| share * size.x as f32));
+    let rims = [RIM_INSIDE, RIM_BEYOND].map(|rim| rim.map(|share| share * picture.x as f32));
     let from_known = distances(width, colors.size.y as usize, |cell| cells[cell] == Cell::Source);
     let (origin, smooth) = (colors.origin, &mut colors.cells);
     smooth.par_iter_mut().zip(patched).zip(from_known).enumerate().for_each(
         |(cell, ((color, patch), far))| {
             let pixel = origin + IVec2::new((cell % width) as i32, (cell / width) as i32);
-            let ([begin, whole], most) =
-                if is_inside(pixel) { (rims[0], 1.0) } else { (rims[1], CONTRAST_BEYOND) };
+            let inside = pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(end).all();
+            let out = (-pixel).max(pixel + 1 - end).max_element().max(0) as f32;
+            let most = 1.0 - (1.0 - CONTRAST_BEYOND) * (out / rims[1][1]).min(1.0);
+            let [begin, whole] = if inside { rims[0] } else { rims[1] };
             let share = ((far - begin) / (whole - begin)).clamp(0.0, most);
             *color = std::array::from_fn(|c| color[c] + share * (patch[c] - color[c]));
         },
     );
-    Some(colors)
+    true
 }
 
 /// Fills what is hidden of a backdrop from its mirror image; the fit's local miss is taken out by a membrane, so that no

@@ -23,7 +23,7 @@ mod tint;
 mod visible;
 mod zones;
 
-pub use coverage::TourMasks;
+pub use coverage::{Edge, TourMasks};
 pub use grid::{Grid, Layer, snap};
 pub use reflection::Origin;
 pub use tint::{Tint, fresnel};
@@ -47,7 +47,7 @@ pub struct MapOptions {
     pub fill: Fill,
     /// What reflection maps are made of.
     pub method: Method,
-    /// Whether what lies beyond the picture's border is made up of the picture's own matter, or only folded in.
+    /// Whether what lies beyond the picture's border is made up of the picture's own matter, or goes on smoothly.
     pub paint_beyond: bool,
 }
 
@@ -150,33 +150,38 @@ impl Maps {
         let direct = (0..count)
             .map(|index| {
                 let what = format!("what is behind and beyond: {}", scene.components[index].name);
-                let share = |share: f32| 0.15 + 0.65 * (index as f32 + share) / count as f32;
+                let share = |share: f32| 0.15 + 0.55 * (index as f32 + share) / count as f32;
                 step(share(0.0), &what)?;
                 holes::filled_colors(&input, index, &|done| progress(share(done), &what))
             })
             .collect::<Option<Vec<_>>>()?;
         let by_body = bodies::by_body(scene, &coverage, &zones);
-        step(0.8, "reflection maps")?;
+        step(0.7, "reflection maps")?;
         let mut reflections = Vec::with_capacity(count);
         let mut origins = Vec::with_capacity(count);
         for index in 0..count {
             let mirrored = scene.water && (index == 0 || zones[index].is_some());
-            let (layer, origin) = mirrored
-                .then(|| {
-                    let input = ReflectionInput {
-                        scene,
-                        picture,
-                        coverage: &coverage,
-                        zones: &zones,
-                        owner: &owner,
-                        tint: &tint,
-                        by_body: &by_body,
-                        direct: &direct[index],
-                        options,
-                    };
-                    reflection::reflection_map(&input, index)
-                })
-                .unzip();
+            let input = ReflectionInput {
+                scene,
+                picture,
+                coverage: &coverage,
+                zones: &zones,
+                owner: &owner,
+                tint: &tint,
+                by_body: &by_body,
+                direct: &direct[index],
+                options,
+            };
+            let what = format!("what the water shows of: {}", scene.components[index].name);
+            let share = |share: f32| 0.7 + 0.2 * (index as f32 + share) / count as f32;
+            step(share(0.0), &what)?;
+            let map = match mirrored {
+                true => {
+                    Some(reflection::reflection_map(&input, index, &|done| progress(share(done), &what))?)
+                }
+                false => None,
+            };
+            let (layer, origin) = map.unzip();
             reflections.push(layer);
             origins.push(origin.unwrap_or_default());
         }

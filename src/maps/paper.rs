@@ -11,7 +11,13 @@ use super::reflection::{Origin, ReflectionInput, linear};
 use super::{Fill, Grid};
 
 /// Colors for the texels that the water does not show, linear light.
-pub(super) fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Origin)>) -> Vec<[f32; 3]> {
+///
+/// `None` if canceled.
+pub(super) fn unseen_colors(
+    input: &ReflectionInput,
+    texels: &Grid<([f32; 3], Origin)>,
+    progress: &dyn Fn(f32) -> bool,
+) -> Option<Vec<[f32; 3]>> {
     let ReflectionInput { picture, options, .. } = input;
     let end = picture.size().as_ivec2();
     let is_inside = |pixel: IVec2| pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(end).all();
@@ -33,9 +39,6 @@ pub(super) fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Or
             colors[cell] = linear(picture, texels.pixel(other));
         }
     }
-    if options.fill == Fill::Patches {
-        // Nobody cancels what is only compared with.
-        let _ = inpaint(width, &mut colors, &cells, &Options::default(), &|_| true);
-    }
-    colors
+    let smooth = options.fill == Fill::Smooth;
+    (smooth || inpaint(width, &mut colors, &cells, &Options::default(), progress)).then_some(colors)
 }

@@ -11,14 +11,17 @@ use super::beyond::frame;
 use super::coverage::Coverage;
 use super::distance::distances;
 use super::fill::push_pull;
+use super::holes::patch;
+use super::inpaint::Cell;
 use super::mirror::{mirrored, reflection_of};
 use super::tint::{Tint, TintSample};
 use super::zones::Zones;
-use super::{Grid, Layer, MapOptions, Method, lift, paper};
+use super::{Fill, Grid, Layer, MapOptions, Method, lift, paper};
 use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::picture::color::linear_from_srgb;
 use crate::picture::color::srgb_from_linear;
+use crate::scene::Surface;
 use crate::scene::TourScene;
 
 /// Misses of the prediction beyond this many median errors are no shade of the water; in codes, kept in these bounds.
@@ -29,7 +32,7 @@ const TOLERANCE_CODES: [f32; 2] = [10.0, 20.0];
 const TRUST: [f32; 2] = [0.3, 0.7];
 
 /// How far up or down a mirror image may lie from where its plane says, pixels per pixel of picture width.
-const SHIFT: f32 = 0.006;
+const SEARCH_REACH: f32 = 0.006;
 
 /// From this distance to what is seen on, predictions are taken whole, pixels per pixel of picture width.
 const LONELY: f32 = 0.02;
@@ -131,7 +134,13 @@ pub(super) struct ReflectionInput<'a> {
 }
 
 /// A component's reflection map before the lift, and the origin of each texel.
-pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, Vec<Origin>) {
+///
+/// `None` if canceled.
+pub(super) fn reflection_map(
+    input: &ReflectionInput,
+    index: usize,
+    progress: &dyn Fn(f32) -> bool,
+) -> Option<(Layer, Vec<Origin>)> {
     let ReflectionInput { scene, picture, coverage, zones, owner, tint, direct, .. } = input;
     let surface = &scene.components[index].surface;
     let size = picture.size();
@@ -165,8 +174,12 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
         (predicted, origin)
     });
     let unseen = match input.options.method {
-        Method::Ours => unseen_colors(input, &texels),
-        Method::Paper => paper::unseen_colors(input, &texels),
+        Method::Ours => {
+            let mut colors = Grid { origin, size: extent, cells: unseen_colors(input, &texels) };
+            prolong(input, surface, &texels, &mut colors, index, progress)?;
+            colors.cells
+        }
+        Method::Paper => paper::unseen_colors(input, &texels, progress)?,
     };
     let layer = Layer::from_fn(origin, extent, |pixel| {
         let cell = texels.index(pixel).unwrap_or(0);
@@ -182,7 +195,39 @@ pub(super) fn reflection_map(input: &ReflectionInput, index: usize) -> (Layer, V
         };
         [r, g, b, alpha]
     });
-    (layer, texels.cells.into_iter().map(|(_, origin)| origin).collect())
+    Some((layer, texels.cells.into_iter().map(|(_, origin)| origin).collect()))
+}
+
+/// Fills the texels that mirror what lies even above the component's texture map: nothing predicts them.
+fn prolong(
+    input: &ReflectionInput,
+    surface: &Surface,
+    texels: &Grid<([f32; 3], Origin)>,
+    colors: &mut Grid<[f32; 3]>,
+    index: usize,
+    progress: &dyn Fn(f32) -> bool,
+) -> Option<()> {
+    let ReflectionInput { scene, picture, direct, options, .. } = input;
+    let top = f64::from(direct.origin.y);
+    let cells: Vec<Cell> = (0..texels.cells.len())
+        .into_par_iter()
+        .map(|cell| {
+            let pixel = texels.pixel(cell);
+            let point = PicturePoint::pixel_center(pixel.x.into(), pixel.y.into());
+            let beyond = mirrored(scene, surface, point).is_some_and(|found| found.direct.y() < top);
+            if beyond && texels.cells[cell].1 != Origin::Seen { Cell::Hole } else { Cell::Source }
+        })
+        .collect();
+    if !cells.contains(&Cell::Hole) {
+        return Some(());
+    }
+    for cell in (0..cells.len()).filter(|&cell| texels.cells[cell].1 == Origin::Seen) {
+        colors.cells[cell] = linear(picture, texels.pixel(cell));
+    }
+    let known: Vec<f32> = cells.iter().map(|&cell| f32::from(u8::from(cell == Cell::Source))).collect();
+    push_pull(colors.size.x as usize, &mut colors.cells, &known);
+    let patches = options.fill == Fill::Patches && options.paint_beyond;
+    (!patches || patch(colors, &cells, picture.size(), index as u64, progress)).then_some(())
 }
 
 /// Colors for the texels that the water does not show, linear light: the prediction plus what it misses on the seen
@@ -191,7 +236,7 @@ fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Origin)>) -> 
     let ReflectionInput { picture, tint, by_body, .. } = input;
     let width = texels.size.x as usize;
     let tolerance = tolerance(tint);
-    let reach = (SHIFT * picture.size().x as f32).round() as i32;
+    let reach = (SEARCH_REACH * picture.size().x as f32).round() as i32;
     // Per texel what the prediction misses, the seen color, and whether the two agree.
     let ((mut misses, mut around), agreeing): ((Vec<[f32; 3]>, Vec<[f32; 3]>), Vec<f32>) = texels
         .cells

@@ -153,7 +153,7 @@ fn behind(
 ) -> Grid<u8> {
     let code = |grid: &Grid<u8>, pixel: IVec2| u32::from(grid.get(pixel).unwrap_or(0));
     let states = Grid::from_fn(origin, extent, |pixel| {
-        let known = code(hidden, pixel) < HIDDEN && pixel.cmpge(IVec2::ZERO).all();
+        let known = hidden.get(pixel).is_some_and(|hidden| u32::from(hidden) < HIDDEN);
         (known, code(own, pixel) > 127)
     });
     let known: Vec<f32> = states.cells.iter().map(|(known, _)| f32::from(u8::from(*known))).collect();

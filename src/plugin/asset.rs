@@ -27,7 +27,7 @@ pub enum TourAsset {
     /// shown first and refined in place.
     Source(Arc<TourSource>, MapOptions),
     /// Solved and built before.
-    Built(Tour, Arc<AssembledTour>),
+    Built(Box<Tour>, Arc<AssembledTour>),
 }
 
 impl TourAsset {
@@ -43,7 +43,7 @@ impl TourAsset {
 
 impl From<Baked> for TourAsset {
     fn from(baked: Baked) -> Self {
-        Self::Built(baked.tour, Arc::new(baked.built))
+        Self::Built(Box::new(baked.tour), Arc::new(baked.built))
     }
 }
 
@@ -147,10 +147,10 @@ impl AssetLoader for TourLoader {
             Some(Err(error)) => Err(error.clone()),
             None => Err("it was not read".to_owned()),
         };
-        if let Some(bytes) = baked
-            && let Some(built) = fresh_bake(&baked_name, &bytes, &tour, settings, &lookup)
-        {
-            return Ok(built);
+        match baked.map(|bytes| bake::fresh(&bytes, &tour, settings, &lookup)) {
+            Some(Ok(baked)) => return Ok(baked.into()),
+            Some(Err(reason)) => warn!("{baked_name} is not used: {reason}"),
+            None => {}
         }
         let source = TourSource::read(&tour, &lookup)
             .map_err(|problems| problems.located_in(&text).with_file(&name))?;
@@ -159,32 +159,6 @@ impl AssetLoader for TourLoader {
 
     fn extensions(&self) -> &[&str] {
         &["tour.ron"]
-    }
-}
-
-/// A tour's baked file, if `bytes` are one and it is fresh; `name` is for the log.
-fn fresh_bake(
-    name: &str,
-    bytes: &[u8],
-    tour: &Tour,
-    options: &MapOptions,
-    read: &dyn Fn(&RelativePath) -> Result<Vec<u8>, String>,
-) -> Option<TourAsset> {
-    let wanted = bake::fingerprint(tour, options, read).ok()?;
-    let fresh = match bake::fingerprint_of(bytes) {
-        Ok(found) if found == wanted => bake::decode(bytes),
-        Ok(_) => {
-            warn!("{name} is stale: the tour, its files or this program changed since; bake it again");
-            return None;
-        }
-        Err(error) => Err(error),
-    };
-    match fresh {
-        Ok(baked) => Some(baked.with_tour(tour).into()),
-        Err(error) => {
-            warn!("{name} is not used: {error}");
-            None
-        }
     }
 }
 

@@ -73,7 +73,9 @@ impl Stage {
     /// The first build of a tour whose maps are wanted like this, and how it is made.
     fn first(options: &MapOptions) -> (Self, MapOptions) {
         match options.fill {
-            Fill::Patches => (Self::Preview, MapOptions::PREVIEW),
+            Fill::Patches => {
+                (Self::Preview, MapOptions { fill: Fill::Smooth, paint_beyond: false, ..*options })
+            }
             Fill::Smooth => (Self::Whole, *options),
         }
     }

@@ -15,7 +15,8 @@ const REACH: f64 = 60.0;
 /// A receding contact line is prolonged by this many of its lengths to each side.
 const PROLONGED: f64 = 0.5;
 
-/// Contact lines whose depth changes less than this over their length stand frontally: marks are not finer (notes §5.2).
+/// Contact lines whose depth changes less than this over their length stand frontally: far shores wind, and are marked
+/// where the horizon is near.
 const FRONTAL_WITHIN: f64 = 0.2;
 
 /// Backdrops are kept between these distances, meters.
@@ -81,12 +82,20 @@ pub(super) fn place_all(
         })
         .collect();
     placed.sort_by(|a, b| b.distance.total_cmp(&a.distance));
-    // A second layer at infinity would hide the first.
-    while placed.len() > 1 && placed[1].surface == Surface::Infinity {
-        let kept = placed.remove(1);
+    // One layer at infinity is the last; another stands as far before it as can be.
+    for other in placed.iter_mut().skip(1).filter(|other| other.surface == Surface::Infinity) {
+        other.surface = Surface::Wall(frontal(f64::INFINITY));
+    }
+    // Rays that miss everything meet the last layer, so it cannot end.
+    if let Some(last) = placed.first_mut()
+        && let Surface::Wall(wall) = last.surface
+        && wall.along != DVec2::X
+    {
+        last.surface = Surface::Wall(frontal(last.distance));
         remarks.push(format!(
-            "\"{}\" is at infinity as \"{}\" is; both are shown as one",
-            kept.name, placed[0].name
+            "\"{}\" is the farthest thing, so it stands frontally though its contact line recedes; mark a sky or \
+             mountains behind it",
+            last.name
         ));
     }
     if placed.is_empty() {
@@ -104,7 +113,7 @@ fn frontal(distance: f64) -> Wall {
 
 /// The wall through a contact line on the water: frontal at its median depth, or along the line when that recedes.
 fn contact_wall(camera: &PinholeCamera, points: &[PicturePoint]) -> Option<Wall> {
-    let mut feet: Vec<DVec2> = points
+    let feet: Vec<DVec2> = points
         .iter()
         .filter_map(|&point| {
             let ray = camera.ray(point);
@@ -113,11 +122,9 @@ fn contact_wall(camera: &PinholeCamera, points: &[PicturePoint]) -> Option<Wall>
             (t > 0.0 && foot.is_finite() && -foot.z < DISTANCES[1]).then(|| DVec2::new(foot.x, foot.z))
         })
         .collect();
-    feet.sort_by(|a, b| a.x.total_cmp(&b.x));
-    let (left, right) = (*feet.first()?, *feet.last()?);
     let mut depths: Vec<f64> = feet.iter().map(|foot| -foot.y).collect();
     depths.sort_by(f64::total_cmp);
-    let depth = depths[depths.len() / 2];
+    let depth = *depths.get(depths.len() / 2)?;
     // The direction in which the feet are spread most.
     let mean = feet.iter().sum::<DVec2>() / feet.len() as f64;
     let spread = feet.iter().fold(DMat2::ZERO, |sum, &foot| {
@@ -127,17 +134,20 @@ fn contact_wall(camera: &PinholeCamera, points: &[PicturePoint]) -> Option<Wall>
     let angle = 0.5 * (2.0 * spread.x_axis.y).atan2(spread.x_axis.x - spread.y_axis.y);
     let along = DVec2::new(angle.cos(), angle.sin());
     let along = if along.x < 0.0 { -along } else { along };
-    let recedes = ((right - left).dot(along) * along.y).abs() > FRONTAL_WITHIN * depth;
+    let [left, right] = feet
+        .iter()
+        .map(|&foot| (foot - mean).dot(along))
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], s| [low.min(s), high.max(s)]);
+    let length = right - left;
+    let recedes = (length * along.y).abs() > FRONTAL_WITHIN * depth;
     if !recedes {
         return Some(frontal(depth));
     }
-    let ends = [left, right].map(|end| (end - mean).dot(along));
-    let length = ends[1] - ends[0];
     let reach = REACH * depth.max(length);
     Some(Wall {
         foot: mean,
         along,
-        span: [ends[0] - PROLONGED * length, ends[1] + PROLONGED * length],
+        span: [left - PROLONGED * length, right + PROLONGED * length],
         rise: [-reach, reach],
     })
 }
@@ -195,6 +205,15 @@ mod tests {
             assert!(off < 1e-6, "the line's end is {off} m off the wall");
         }
         assert!(wall.along.x > 0.0, "from left to right, not along {}", wall.along);
+        assert!(
+            [near, far].iter().all(|&end| wall.contains(DVec3::new(end.x, 1.0, end.y))),
+            "{:?}",
+            wall.span
+        );
+        // A line straight away from the viewer has no left end that could be told by x.
+        let away = [(5.0, -80.0), (5.05, -20.0), (5.1, -50.0)].map(|(x, z)| on_water(x, z));
+        let wall = contact_wall(&camera(), &away).expect("it lies below the horizon");
+        assert!(wall.span[1] - wall.span[0] > 60.0, "{:?}", wall.span);
     }
 
     #[test]
@@ -204,8 +223,8 @@ mod tests {
         let plans =
             [plan("hill", BackdropPlace::Contact(sky.to_vec())), plan("sky", BackdropPlace::Infinity)];
         let placed = place_all(&camera(), &plans, &mut remarks);
-        assert_eq!(placed.len(), 1);
-        assert_eq!(remarks.len(), 2, "{remarks:?}");
+        assert!(placed[0].surface == Surface::Infinity && placed[1].surface == Surface::Wall(frontal(1e5)));
+        assert_eq!(remarks.len(), 1, "{remarks:?}");
         assert_eq!(place_all(&camera(), &[], &mut remarks)[0].surface, Surface::Infinity);
     }
 }

@@ -53,7 +53,14 @@ impl CameraBounds {
                 .iter()
                 .filter(|component| (component.role == Role::Billboard) == billboards)
                 .filter_map(|component| match &component.surface {
-                    Surface::Wall(wall) => wall.ends().iter().map(|end| at.z - end.y).min_by(f64::total_cmp),
+                    Surface::Wall(wall) if billboards => {
+                        wall.ends().iter().map(|end| at.z - end.y).min_by(f64::total_cmp)
+                    }
+                    // Bands are prolonged beyond what is seen, so their middle counts.
+                    Surface::Wall(wall) => {
+                        let middle = wall.foot + wall.along * 0.5 * (wall.span[0] + wall.span[1]);
+                        Some(at.z - middle.y)
+                    }
                     Surface::Level(_) | Surface::Infinity => None,
                 })
                 .min_by(f64::total_cmp)

@@ -32,6 +32,9 @@ pub fn margin_px(picture: UVec2) -> i32 {
     (MARGIN * f64::from(picture.x)).ceil() as i32
 }
 
+/// Where no backdrop is at a finite distance, things stand at most this far, meters.
+const FARTHEST: f64 = 1e4;
+
 /// A billboard to be placed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BillboardPlan {
@@ -68,13 +71,13 @@ pub fn build(plan: &ScenePlan) -> (TourScene, Vec<String>) {
     let backdrops = backdrop::place_all(&plan.camera, &plan.backdrops, &mut remarks);
     let component = |name: &str, role, surface| SceneComponent { name: name.to_owned(), role, surface };
     let last = &backdrops[0];
+    let nearest = backdrops.iter().map(|placed| placed.distance).fold(f64::INFINITY, f64::min);
     let mut components = vec![component(&last.name, Role::LastLayer, last.surface)];
     if let Some(height) = plan.ground_height {
-        let nearest = backdrops.iter().map(|placed| placed.distance).fold(f64::INFINITY, f64::min);
         let level = Surface::Level(ground_level(&plan.camera, height, nearest));
         components.push(component("ground", Role::Ground, level));
     }
-    for band in &backdrops[1..] {
+    for band in backdrops.iter().skip(1).take(MAX_COMPONENTS - 2) {
         components.push(component(&band.name, Role::Band, band.surface));
     }
     let distance = last.distance;
@@ -90,7 +93,7 @@ pub fn build(plan: &ScenePlan) -> (TourScene, Vec<String>) {
             Support::Water => 0.0,
             Support::Ground => plan.ground_height.unwrap_or(0.0),
         };
-        let wall = billboard_wall(&plan.camera, billboard, height, distance, &mut remarks);
+        let wall = billboard_wall(&plan.camera, billboard, height, [nearest, distance], &mut remarks);
         components.push(component(&billboard.name, Role::Billboard, Surface::Wall(wall)));
     }
     let bounds = CameraBounds::of(&plan.camera, plan.ground_height, &components);
@@ -99,7 +102,7 @@ pub fn build(plan: &ScenePlan) -> (TourScene, Vec<String>) {
 
 /// The ground from the picture's foreground to the background.
 fn ground_level(camera: &PinholeCamera, height: f64, background_distance: f64) -> Level {
-    let far = if background_distance.is_finite() { background_distance } else { 1e4 };
+    let far = if background_distance.is_finite() { background_distance } else { FARTHEST };
     let size = camera.intrinsics.size.as_dvec2();
     // The lowest ray of the picture says where the ground comes into sight; it is kept from there a bit nearer.
     let nearest = [0.0, size.x]
@@ -119,11 +122,12 @@ fn billboard_wall(
     camera: &PinholeCamera,
     plan: &BillboardPlan,
     height: f64,
-    background_distance: f64,
+    backdrops: [f64; 2],
     remarks: &mut Vec<String>,
 ) -> Wall {
-    let farthest =
-        if background_distance.is_finite() { BEFORE_BACKGROUND * background_distance } else { 1e4 };
+    // What has a place stands before the farthest backdrop; what has none, before the nearest.
+    let [fallback, farthest] =
+        backdrops.map(|distance| if distance.is_finite() { BEFORE_BACKGROUND * distance } else { FARTHEST });
     let feet = plan.contact.map(|foot| {
         let ray = camera.ray(foot);
         let t = (height - ray.origin.y) / ray.direction.y;
@@ -132,11 +136,11 @@ fn billboard_wall(
             t
         } else {
             remarks.push(format!(
-                "\"{}\" would stand at or beyond the background: its foot {foot} is moved to {farthest:.1} m; \
+                "\"{}\" would stand at or beyond the background: its foot {foot} is moved to {fallback:.1} m; \
                  lower its contact line or mark the background farther away",
                 plan.name
             ));
-            farthest / (-ray.direction.z).max(1e-3)
+            fallback / (-ray.direction.z).max(1e-3)
         };
         let point = ray.at(placed);
         DVec2::new(point.x, point.z)

@@ -6,8 +6,9 @@ use std::path::Path;
 
 /// Writes a file whole or not at all. A link stays a link to the file it names.
 ///
-/// # Errors This returns an error when the folder cannot be written to or the disk is full; an older file
-/// then stays as it was.
+/// # Errors
+///
+/// This returns an error when the folder cannot be written to or the disk is full; an older file then stays as it was.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));

@@ -29,9 +29,10 @@ pub(crate) fn run(path: &Path, force: bool) -> Result<ExitCode, Failure> {
         bake::fingerprint(&disk.tour, &MapOptions::default(), &|file| disk.read(file))
             .map_err(Failure::CannotRun)
     };
-    // Before the files are decoded, so that their problems are told in the usual way.
+    // Asked before the files are decoded: what changes in between makes another one. Their problems are told first.
+    let before = fingerprint();
     let source = Arc::new(disk.source().map_err(Failure::Problems)?);
-    let before = fingerprint()?;
+    let before = before?;
     let opened = Opened { name: path.display().to_string(), asset: Arc::clone(&source).into() };
     let built = opened.assemble(&|| false)?;
     if fingerprint()? != before {
@@ -60,7 +61,7 @@ pub(crate) fn run(path: &Path, force: bool) -> Result<ExitCode, Failure> {
     let size = std::fs::metadata(&baked).map_or(0, |metadata| metadata.len());
     writeln!(
         stdout,
-        "{}: {} layers, {:.1} MB",
+        "{}: {} components, {:.1} MB",
         baked.display(),
         built.maps.components.len(),
         size as f64 / 1e6

@@ -12,6 +12,7 @@ use bevy_picture_tour::assemble::TourOnDisk;
 use bevy_picture_tour::assemble::assemble;
 use bevy_picture_tour::bake;
 use bevy_picture_tour::bake::Baked;
+use bevy_picture_tour::bake::NotFresh;
 use bevy_picture_tour::maps::MapOptions;
 use bevy_picture_tour::plugin::TourAsset;
 use bevy_picture_tour::tour::Problem;
@@ -47,7 +48,7 @@ pub(crate) fn open(tour: Option<&Path>) -> Result<Opened, Failure> {
     let name = path.display().to_string();
     let disk = on_disk(path)?;
     let asset = match fresh_bake(path, &disk) {
-        Ok(baked) => baked.with_tour(&disk.tour).into(),
+        Ok(baked) => baked.into(),
         Err(reason) => {
             if let Some(reason) = reason {
                 // When stderr is closed nobody listens; the tour is built all the same.
@@ -82,18 +83,13 @@ pub(crate) fn on_disk(path: &Path) -> Result<TourOnDisk, Failure> {
 pub(crate) fn fresh_bake(path: &Path, disk: &TourOnDisk) -> Result<Baked, Option<String>> {
     let baked = bake::baked_path(path);
     let Ok(bytes) = std::fs::read(&baked) else { return Err(None) };
-    let told = |reason: String| Some(format!("{} is not used: {reason}", baked.display()));
-    let found = bake::fingerprint_of(&bytes).map_err(|error| told(error.to_string()))?;
-    // Files that cannot be read are told when the tour is built.
-    let wanted =
-        bake::fingerprint(&disk.tour, &MapOptions::default(), &|file| disk.read(file)).map_err(|_| None)?;
-    if found != wanted {
-        return Err(told(
-            "it is stale, the tour, its files or this program changed since; run `picture-tour bake` again"
-                .into(),
-        ));
-    }
-    bake::decode(&bytes).map_err(|error| told(error.to_string()))
+    bake::fresh(&bytes, &disk.tour, &MapOptions::default(), &|file| disk.read(file)).map_err(|reason| {
+        match reason {
+            // Told when the tour is built.
+            NotFresh::Unread(_) => None,
+            reason => Some(format!("{} is not used: {reason}", baked.display())),
+        }
+    })
 }
 
 impl Opened {

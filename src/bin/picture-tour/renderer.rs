@@ -44,7 +44,7 @@ impl Renderer {
             return by_reference(built);
         }
         let taken_by = built.scene.camera;
-        let asset = TourAsset::Built(opened.asset.tour().clone(), Arc::clone(&built));
+        let asset = TourAsset::Built(Box::new(opened.asset.tour().clone()), Arc::clone(&built));
         match HeadlessTour::new(asset, size * side, Transform::IDENTITY) {
             Ok(tour) => Ok(Self::Gpu { tour: Box::new(tour), taken_by, side }),
             Err(HeadlessError::NoAdapter) => {

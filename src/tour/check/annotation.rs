@@ -18,6 +18,9 @@ const FOCAL_PX: std::ops::RangeInclusive<f64> = 1.0..=1e6;
 /// Lengths that set the scale, meters.
 const SCALE_METERS: std::ops::RangeInclusive<f64> = 1e-3..=1e5;
 
+/// More bands than depths can be told apart by.
+const MOST_BANDS: usize = 16;
+
 impl Check<'_> {
     pub(super) fn picture(&mut self) {
         let picture = &self.file.picture;
@@ -229,6 +232,14 @@ impl Check<'_> {
         let background = &self.file.background;
         if let Some(place) = &background.place {
             self.background_place("background.place", place);
+        }
+        if background.bands.len() > MOST_BANDS {
+            self.report(
+                "background.bands",
+                background.bands.len(),
+                "these are more bands than a background can be cut into",
+                format!("join some; {MOST_BANDS} at most"),
+            );
         }
         let mut rest: Option<&str> = None;
         for (i, band) in background.bands.iter().enumerate() {
