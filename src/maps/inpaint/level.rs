@@ -10,12 +10,6 @@ use super::patch::{COMPARED, Feature, RADIUS, STRANGE, STRANGENESS};
 use super::price::slack;
 use super::random::Random;
 
-/// The place of a hint's weight in a hole's [`Feature`] until [`Level::new`] has taken it out.
-pub(super) const HINT: usize = COMPARED + 1;
-
-/// A hint's weight of 1.
-pub(super) const FULL_HINT: f32 = 1024.0;
-
 /// The picture at one size.
 #[derive(Debug)]
 pub(super) struct Level {
@@ -26,8 +20,6 @@ pub(super) struct Level {
     pub(super) features: Vec<Feature>,
     /// Hole cells, in order.
     pub(super) holes: Vec<u32>,
-    /// Hole cells of which the caller knows something, and what; [`HINT`] holds how much.
-    pub(super) hints: Vec<(u32, Feature)>,
     /// Centers of patches to copy from, in order; see [`sources`].
     pub(super) sources: Vec<u32>,
     /// Whether a cell is among the sources.
@@ -66,14 +58,6 @@ impl Level {
                 feature[STRANGENESS] = STRANGE;
             },
         );
-        let mut hints = Vec::new();
-        for cell in &holes {
-            let feature = &mut features[*cell as usize];
-            if feature[HINT] > 0 {
-                hints.push((*cell, *feature));
-                feature[HINT] = 0;
-            }
-        }
         let slack = slack(&row_starts);
         Self {
             width,
@@ -81,7 +65,6 @@ impl Level {
             cells,
             features,
             holes,
-            hints,
             sources,
             is_source,
             is_target,
@@ -97,13 +80,6 @@ impl Level {
     pub(super) fn reduced(&self) -> Self {
         let halved = |size: usize| (size - 2 * RADIUS).div_ceil(2) + 2 * RADIUS;
         let (width, height) = (halved(self.width), halved(self.height));
-        let mut hints = vec![];
-        if !self.hints.is_empty() {
-            hints = vec![0; self.cells.len()];
-            for (cell, feature) in &self.hints {
-                hints[*cell as usize] = feature[HINT];
-            }
-        }
         let (cells, features) = (0..width * height)
             .into_par_iter()
             .map(|at| {
@@ -119,11 +95,7 @@ impl Level {
                 let count = |wanted| children.clone().filter(|child| self.cells[*child] == wanted).count();
                 let (sources, holes) = (count(Cell::Source), count(Cell::Hole));
                 if holes > 0 {
-                    let weight = |child: usize| hints.get(child).map_or(0, |weight| i32::from(*weight));
-                    let mut mean = mean(children.clone().map(|child| (&self.features[child], weight(child))));
-                    let whole: i32 = children.map(weight).sum();
-                    mean[HINT] = (whole / holes as i32) as i16;
-                    return (Cell::Hole, mean);
+                    return (Cell::Hole, [0; 8]);
                 }
                 let known = |child: usize| i32::from(self.cells[child] == Cell::Source);
                 let mean = mean(children.clone().map(|child| (&self.features[child], known(child))));

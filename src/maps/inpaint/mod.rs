@@ -43,7 +43,7 @@ pub(super) enum Cell {
 
 /// How to fill.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Options<'a> {
+pub(super) struct Options {
     /// Another seed gives another, equally likely fill.
     pub seed: u64,
     /// Price of a patch from the picture's other end, above or below, in squared 8-bit codes per patch.
@@ -54,14 +54,11 @@ pub(super) struct Options<'a> {
     ///
     /// 0 is best, 1 costs a quarter.
     pub finest_level: usize,
-    /// How far a hole cell's color on entry can be relied on, 0–1 per cell; what is said of other cells is
-    /// ignored.
-    pub hints: Option<&'a [f32]>,
 }
 
-impl Default for Options<'_> {
+impl Default for Options {
     fn default() -> Self {
-        Self { seed: 0, stratification: 2e6, finest_level: 0, hints: None }
+        Self { seed: 0, stratification: 2e6, finest_level: 0 }
     }
 }
 
@@ -73,7 +70,7 @@ impl Default for Options<'_> {
 ///
 /// # Panics
 ///
-/// When `colors`, `cells` and the hints differ in length.
+/// When `colors` and `cells` differ in length.
 #[must_use]
 pub(super) fn inpaint(
     width: usize,
@@ -83,24 +80,17 @@ pub(super) fn inpaint(
     progress: &dyn Fn(f32) -> bool,
 ) -> bool {
     assert_eq!(colors.len(), cells.len(), "one cell per color");
-    let hints = options.hints;
-    assert!(hints.is_none_or(|hints| hints.len() == cells.len()), "one hint per cell");
     let Some(window) = Window::around_holes(width, cells) else {
         return true;
     };
     let part_cells = window.cut(cells, Cell::Foreign);
-    let part_hints = hints.map(|hints| window.cut(hints, 0.0));
     let mut part = window.cut(colors, [0.0; 3]);
     let row_price = options.stratification / (cells.len() / width).pow(2) as f32;
-    let features = texture::features(window.cut_width(), &part, &part_cells, part_hints.as_deref());
+    let features = texture::features(window.cut_width(), &part, &part_cells);
     let level = Level::new(window.cut_width(), part_cells, features, row_price);
     let holes = if level.sources.is_empty() {
-        let weight = |(at, cell): (usize, &Cell)| match cell {
-            Cell::Source => 1.0,
-            Cell::Hole => part_hints.as_ref().map_or(0.0, |hints| hints[at].clamp(0.0, 1.0)),
-            Cell::Foreign => 0.0,
-        };
-        let weights: Vec<f32> = level.cells.iter().enumerate().map(weight).collect();
+        let weight = |cell: &Cell| f32::from(u8::from(*cell == Cell::Source));
+        let weights: Vec<f32> = level.cells.iter().map(weight).collect();
         push_pull(window.cut_width(), &mut part, &weights);
         level.holes
     } else {

@@ -28,7 +28,7 @@ impl Made {
     fn filled(&self, options: &Options) -> Vec<[f32; 3]> {
         let mut colors = self.colors.clone();
         for (color, cell) in colors.iter_mut().zip(&self.cells) {
-            if *cell == Cell::Hole && options.hints.is_none() {
+            if *cell == Cell::Hole {
                 *color = [0.0, 1.0, 1.0];
             }
         }
@@ -148,24 +148,6 @@ fn a_frame_around_the_picture_continues_its_rows() {
 }
 
 #[test]
-fn hints_decide_what_the_sources_leave_open() {
-    let stripes = |x: usize, _: usize| if x % 100 < 50 { [0.8, 0.1, 0.1] } else { [0.1, 0.1, 0.8] };
-    let mut made = Made::new(200, 100, stripes, hole(200, 100));
-    let mut errors = Vec::new();
-    // The hole from 75 to 125 would be blue and red by halves; the hint says that it is all red.
-    for (color, cell) in made.colors.iter_mut().zip(&made.cells) {
-        if *cell == Cell::Hole {
-            *color = [0.8, 0.1, 0.1];
-        }
-    }
-    let hints = vec![0.9; made.cells.len()];
-    for hints in [None, Some(hints.as_slice())] {
-        errors.push(made.psnr(&made.filled(&Options { hints, ..Options::default() })));
-    }
-    assert!(errors[1] > errors[0] + 3.0, "{errors:?} dB without and with hints");
-}
-
-#[test]
 fn what_cannot_be_matched_is_filled_smoothly() {
     // Slivers of 5 columns hold no patch.
     let color = |x: usize, _: usize| if x % 10 < 5 { [0.5; 3] } else { [1.0, 0.0, 0.0] };
@@ -231,7 +213,7 @@ fn rounds_at_one_size_lower_the_energy() {
     let made = Made::new(200, 150, hills, hole(200, 150));
     let window = Window::around_holes(made.width, &made.cells).unwrap();
     let (colors, cells) = (window.cut(&made.colors, [0.0; 3]), window.cut(&made.cells, Cell::Foreign));
-    let features = texture::features(window.cut_width(), &colors, &cells, None);
+    let features = texture::features(window.cut_width(), &colors, &cells);
     let mut level = Level::new(window.cut_width(), cells, features, 1.0);
     let mut field = peel::fill(&mut level, 3);
     let mut energies = Vec::new();

@@ -6,7 +6,6 @@ use rayon::prelude::*;
 
 use super::Cell;
 use super::code_from_linear;
-use super::level::{FULL_HINT, HINT};
 use super::patch::{Feature, STEPS};
 
 /// Cells from the center to the rim of the square over which slopes are averaged.
@@ -21,27 +20,19 @@ const CHROMA: f32 = 1.7;
 /// Weight of slopes.
 const WEIGHT: f32 = 3.0;
 
-/// Features of all cells; holes have what `hints` (weights 0–1) say, foreign cells zero.
-pub(super) fn features(
-    width: usize,
-    colors: &[[f32; 3]],
-    cells: &[Cell],
-    hints: Option<&[f32]>,
-) -> Vec<Feature> {
+/// Features of all cells; holes and foreign cells have zero.
+pub(super) fn features(width: usize, colors: &[[f32; 3]], cells: &[Cell]) -> Vec<Feature> {
     let mut features: Vec<Feature> = (0..cells.len())
         .into_par_iter()
         .with_min_len(4096)
         .map(|at| {
-            let hint =
-                hints.filter(|_| cells[at] == Cell::Hole).map_or(0.0, |hints| hints[at].clamp(0.0, 1.0));
             let mut feature = [0; 8];
-            if cells[at] == Cell::Source || hint > 0.0 {
+            if cells[at] == Cell::Source {
                 let [r, g, b] = colors[at].map(|value| STEPS * code_from_linear(value));
                 let compared = [LUMA * (r + 2.0 * g + b) / 4.0, CHROMA * (r - g), CHROMA * (b - g)];
                 for (feature, value) in feature.iter_mut().zip(compared) {
                     *feature = value.round() as i16;
                 }
-                feature[HINT] = (FULL_HINT * hint) as i16;
             }
             feature
         })

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::Cell;
 use super::field::Field;
-use super::level::{FULL_HINT, HINT, Level};
+use super::level::Level;
 use super::patch::{COMPARED, RADIUS, SIDE};
 
 /// Where the best should count nearly alone, how often a vote's weight shrinks by e from it to a middling
@@ -74,7 +74,7 @@ pub(super) fn voted<const C: usize>(
     cells.par_iter().with_min_len(256).map(of_cell).collect()
 }
 
-/// Fills the level's holes by vote, hints having their say.
+/// Fills the level's holes by vote.
 pub(super) fn fill(level: &mut Level, field: &Field, ballot: Ballot) {
     let votes: Vec<[f32; COMPARED]> = voted(level, field, &level.holes, ballot, |from| {
         std::array::from_fn(|channel| f32::from(level.features[from][channel]))
@@ -82,12 +82,6 @@ pub(super) fn fill(level: &mut Level, field: &Field, ballot: Ballot) {
     for (cell, vote) in level.holes.iter().zip(votes) {
         for (feature, said) in level.features[*cell as usize].iter_mut().zip(vote) {
             *feature = said.round() as i16;
-        }
-    }
-    for (cell, hint) in &level.hints {
-        let weight = f32::from(hint[HINT]) / FULL_HINT;
-        for (feature, said) in level.features[*cell as usize].iter_mut().zip(hint).take(3) {
-            *feature = (f32::from(*feature) + weight * f32::from(*said - *feature)).round() as i16;
         }
     }
 }
