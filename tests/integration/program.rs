@@ -86,12 +86,18 @@ fn a_baked_tour_is_used_while_it_is_fresh_and_told_when_it_is_not() {
     assert_eq!(stderr(&from_baked), "");
     assert_eq!(frame("baked"), frame("built"));
 
+    let alone = run(folder.path(), &["render", "pond.tour.baked", "--out", "alone", "--reference"]);
+    assert_eq!(alone.status.code(), Some(0), "{}", stderr(&alone));
+    assert_eq!(frame("alone"), frame("built"));
+
     let mut damaged = sound.clone();
     let last = damaged.len() - 1;
     damaged[last] ^= 1;
     fs::write(&baked, damaged).unwrap();
     let told = stderr(&render("damaged"));
     assert!(told.contains("pond.tour.baked is not used") && told.contains("damaged"), "{told}");
+    let alone = run(folder.path(), &["check", "pond.tour.baked"]);
+    assert!(alone.status.code() == Some(2) && stderr(&alone).contains("damaged"), "{}", stderr(&alone));
     assert_eq!(frame("damaged"), frame("built"));
 
     fs::write(&baked, sound).unwrap();

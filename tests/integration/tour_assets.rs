@@ -38,6 +38,7 @@ fn a_preview_is_refined_on_the_same_entities() {
     let target = stage.camera(root, made_scene::SIZE, Msaa::Off);
     stage.wait("the preview", |stage| !stage.heard().previews.is_empty());
     let shown = stage.descendants(root);
+    let preview = stage.solved(root).expect("a preview is shown").0.clone();
     stage.wait("the refined tour", |stage| !stage.heard().ready.is_empty());
     stage.settle();
     assert_eq!(stage.descendants(root), shown);
@@ -50,6 +51,9 @@ fn a_preview_is_refined_on_the_same_entities() {
     let traced = Reference::new(&solved.scene, &solved.maps).render(&moved, 1);
     let found = Comparison::of(&frame, &traced).unwrap();
     assert!(found.share_within(3) > 0.999, "{} of the frame within 3 codes", found.share_within(3));
+    let before = Reference::new(&preview.scene, &preview.maps).render(&moved, 1);
+    let apart = Comparison::of(&frame, &before).unwrap();
+    assert!(apart.share_within(3) < 0.999, "the preview's maps would have passed as well");
 }
 
 #[test]

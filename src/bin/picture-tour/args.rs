@@ -24,7 +24,7 @@ pub(crate) const MAX_SIDE: u32 = 16_384;
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
-    /// The tour to open: a file that ends in .tour.ron; the demo if left out
+    /// The tour to open: a file that ends in .tour.ron or .tour.baked; the demo if left out
     pub(crate) tour: Option<PathBuf>,
 }
 

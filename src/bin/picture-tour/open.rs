@@ -33,8 +33,8 @@ pub(crate) struct Opened {
     pub(crate) asset: TourAsset,
 }
 
-/// Opens a tour: baked, if a fresh baked file lies beside it, else with its files; the demo when there is no path. A
-/// stale or broken baked file is told on stderr.
+/// Opens a tour: a baked one; baked, if a fresh baked file lies beside it; else with its files; the demo when there is no
+/// path. A stale or broken baked file is told on stderr.
 ///
 /// # Errors
 ///
@@ -46,6 +46,12 @@ pub(crate) fn open(tour: Option<&Path>) -> Result<Opened, Failure> {
         return Ok(Opened { name: demo::NAME.to_owned(), asset: Arc::new(source).into() });
     };
     let name = path.display().to_string();
+    if path.extension().is_some_and(|extension| extension == "baked") {
+        let cannot = |reason: String| Failure::CannotRun(format!("{name} cannot be opened: {reason}"));
+        let bytes = std::fs::read(path).map_err(|error| cannot(format!("{error}; check the path")))?;
+        let asset = bake::decode(&bytes).map_err(|error| cannot(error.to_string()))?.into();
+        return Ok(Opened { name, asset });
+    }
     let disk = on_disk(path)?;
     let asset = match fresh_bake(path, &disk) {
         Ok(baked) => baked.into(),
