@@ -11,7 +11,10 @@ pub(super) fn made_up(maps: &Maps, picture: &Picture) -> Maps {
         .components
         .iter_mut()
         .flat_map(|maps| std::iter::once(&mut maps.texture).chain(&mut maps.reflection));
-    layers.for_each(|layer| mark(layer, picture));
+    for map in layers {
+        mark(&mut map.layer, picture);
+        *map = map.layer.clone().into();
+    }
     marked
 }
 

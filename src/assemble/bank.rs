@@ -67,6 +67,7 @@ pub(super) fn banks(
                 name: format!("ground's bank {}", place + 1),
                 support: Support::Water,
                 contact,
+                turns_to_camera: false,
                 mask_box: [bounds.min.as_ivec2(), bounds.max.as_ivec2()],
             };
             Some(Bank { plan, mask })

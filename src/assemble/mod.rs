@@ -21,6 +21,7 @@ use crate::scene::TourScene;
 use crate::solve::Solution;
 use crate::solve::SolveError;
 use crate::tour::Region;
+use crate::tour::Tour;
 
 /// A tour ready to be looked at.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +36,18 @@ pub struct AssembledTour {
     pub maps: Maps,
     /// What had to be moved or guessed, in words.
     pub remarks: Vec<String>,
+}
+
+impl AssembledTour {
+    /// Lets the objects turn to the camera that `tour` says now; maps do not depend on it.
+    pub(crate) fn turn_as_marked(&mut self, tour: &Tour) {
+        for object in &tour.objects {
+            let plans = self.plan.billboards.iter_mut().filter(|plan| plan.name == object.name);
+            plans.for_each(|plan| plan.turns_to_camera = object.turns_to_camera);
+            let walls = self.scene.components.iter_mut().filter(|component| component.name == object.name);
+            walls.for_each(|wall| wall.turns_to_camera = object.turns_to_camera);
+        }
+    }
 }
 
 /// Why there is no [`AssembledTour`].
@@ -158,6 +171,7 @@ fn plan(source: &TourSource, solution: &Solution, remarks: &mut Vec<String>) -> 
                     name: object.name.clone(),
                     support: object.support,
                     contact: object.contact,
+                    turns_to_camera: object.turns_to_camera,
                     mask_box: [min.as_ivec2(), max.as_ivec2()],
                 }
             })

@@ -8,16 +8,18 @@ use serde::{Deserialize, Serialize};
 
 use super::BakeError;
 use super::Fingerprint;
-use crate::maps::Layer;
+use crate::maps::MIP_LEVELS;
+use crate::maps::Mipmapped;
 use crate::maps::OriginShares;
 use crate::maps::Tint;
+use crate::maps::mip_size;
 use crate::scene::MAX_COMPONENTS;
 use crate::scene::ScenePlan;
 use crate::solve::Annotations;
 
 /// The version of the file's format; one more whenever older files would read wrong, or maps be built
 /// differently by the same version of the crate.
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = 2;
 
 const MAGIC: [u8; 8] = *b"\x89PTB\r\n\x1a\n";
 
@@ -104,9 +106,12 @@ impl Header {
     }
 }
 
-/// Bytes of a layer's cells.
+/// Bytes of a layer's cells with all its mip levels.
 fn bytes_of(size: UVec2) -> u64 {
-    4 * u64::from(size.x) * u64::from(size.y)
+    (0..=MIP_LEVELS)
+        .map(|level| mip_size(size, level))
+        .map(|size| 4 * u64::from(size.x) * u64::from(size.y))
+        .sum()
 }
 
 /// Whether layers, each with its origin and size in pixels, are within what a file may hold; else what is
@@ -127,8 +132,8 @@ fn check_layers(layers: impl Iterator<Item = (IVec2, UVec2)>) -> Result<(), Stri
 }
 
 /// Whether all these layers can be baked.
-pub(super) fn check_fits<'a>(layers: impl Iterator<Item = &'a Layer>) -> Result<(), BakeError> {
-    check_layers(layers.map(|layer| (layer.origin, layer.size))).map_err(BakeError::TooLarge)
+pub(super) fn check_fits<'a>(layers: impl Iterator<Item = &'a Mipmapped>) -> Result<(), BakeError> {
+    check_layers(layers.map(|map| (map.layer.origin, map.layer.size))).map_err(BakeError::TooLarge)
 }
 
 /// Preamble and header as bytes.

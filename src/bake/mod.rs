@@ -14,7 +14,7 @@
 //! | 8 | the header's length |
 //! | 32 | hash of all bytes before this and of the header |
 //! | … | the header in RON: tour, annotations, scene plan, remarks, tint, each layer's place, size and hash |
-//! | … | the layers in the header's order, texture before reflection: RGBA8 cells, one block of LZ4 each |
+//! | … | the layers in the header's order, texture before reflection: RGBA8 cells of all mip levels, fine to coarse, one block of LZ4 each |
 //!
 //! What is quick to derive is derived again from what was marked: the solution by [`crate::solve`], the
 //! planes by [`crate::scene`].
@@ -60,8 +60,10 @@ impl Baked {
     /// The same maps for the tour as its file says it now, which must have the same [`fingerprint()`]: wind,
     /// waves, path and motions are not part of that, and may have changed since.
     #[must_use]
-    pub fn with_tour(self, tour: &Tour) -> Self {
-        Self { tour: tour.in_pixels_of(self.uncropped_size), ..self }
+    pub fn with_tour(mut self, tour: &Tour) -> Self {
+        self.tour = tour.in_pixels_of(self.uncropped_size);
+        self.built.turn_as_marked(&self.tour);
+        self
     }
 }
 

@@ -1,5 +1,6 @@
 //! From a file to an assembled tour.
 
+use glam::UVec2;
 use rayon::prelude::*;
 
 use super::BakeError;
@@ -8,7 +9,10 @@ use super::header::{ComponentEntry, LayerEntry, read_header};
 use crate::assemble::AssembledTour;
 use crate::maps::ComponentMaps;
 use crate::maps::Layer;
+use crate::maps::MIP_LEVELS;
 use crate::maps::Maps;
+use crate::maps::Mipmapped;
+use crate::maps::mip_size;
 use crate::scene;
 use crate::solve::solve;
 use crate::tour::Tour;
@@ -84,17 +88,29 @@ fn unpack_component(
     })
 }
 
-fn unpack(entry: &LayerEntry, bytes: &[u8]) -> Result<Layer, BakeError> {
+fn unpack(entry: &LayerEntry, bytes: &[u8]) -> Result<Mipmapped, BakeError> {
     let LayerEntry { origin, size, hash, .. } = *entry;
     if *blake3::hash(bytes).as_bytes() != hash {
         return Err(BakeError::Damaged(format!("in a layer of {size} pixels")));
     }
-    let mut layer = Layer::filled(origin, size, [0; 4]);
-    let cells = layer.cells.as_flattened_mut();
+    let mut cells = vec![[0; 4]; (0..=MIP_LEVELS).map(|level| count(mip_size(size, level))).sum()];
     let wrong = |what: String| BakeError::Sizes(format!("a layer of {size} pixels unpacks to {what}"));
-    match lz4_flex::block::decompress_into(bytes, cells) {
-        Ok(unpacked) if unpacked == cells.len() => Ok(layer),
-        Ok(unpacked) => Err(wrong(format!("{unpacked} bytes"))),
-        Err(error) => Err(wrong(error.to_string())),
+    match lz4_flex::block::decompress_into(bytes, cells.as_flattened_mut()) {
+        Ok(unpacked) if unpacked == 4 * cells.len() => (),
+        Ok(unpacked) => return Err(wrong(format!("{unpacked} bytes"))),
+        Err(error) => return Err(wrong(error.to_string())),
     }
+    let mut coarser: Vec<Layer> = (1..=MIP_LEVELS)
+        .rev()
+        .map(|level| {
+            let size = mip_size(size, level);
+            Layer { origin, size, cells: cells.split_off(cells.len() - count(size)) }
+        })
+        .collect();
+    coarser.reverse();
+    Ok(Mipmapped { layer: Layer { origin, size, cells }, coarser })
+}
+
+fn count(size: UVec2) -> usize {
+    size.x as usize * size.y as usize
 }

@@ -13,6 +13,8 @@ use crate::assemble::TourSource;
 use crate::assemble::annotations;
 use crate::maps::ComponentMaps;
 use crate::maps::Layer;
+use crate::maps::MIP_LEVELS;
+use crate::maps::Mipmapped;
 use crate::tour::Tour;
 use crate::tour::write_whole;
 
@@ -66,10 +68,13 @@ fn pack_component(maps: &ComponentMaps) -> Packed {
     (entry, texture.1, reflection)
 }
 
-pub(super) fn pack(layer: &Layer) -> (LayerEntry, Vec<u8>) {
-    let bytes = lz4_flex::block::compress(layer.cells.as_flattened());
+pub(super) fn pack(map: &Mipmapped) -> (LayerEntry, Vec<u8>) {
+    let cells: Vec<[u8; 4]> =
+        (0..=MIP_LEVELS).flat_map(|level| map.level(level).cells.iter().copied()).collect();
+    let bytes = lz4_flex::block::compress(cells.as_flattened());
     let hash = *blake3::hash(&bytes).as_bytes();
-    let entry = LayerEntry { origin: layer.origin, size: layer.size, packed: bytes.len() as u64, hash };
+    let Layer { origin, size, .. } = map.layer;
+    let entry = LayerEntry { origin, size, packed: bytes.len() as u64, hash };
     (entry, bytes)
 }
 

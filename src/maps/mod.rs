@@ -15,6 +15,7 @@ mod holes;
 mod inpaint;
 mod lift;
 mod matte;
+mod mipmaps;
 mod mirror;
 mod paper;
 mod reflection;
@@ -25,6 +26,7 @@ mod zones;
 
 pub use coverage::{Edge, TourMasks};
 pub use grid::{Grid, Layer, snap};
+pub use mipmaps::{MIP_LEVELS, Mipmapped, mip_level, mip_size};
 pub use reflection::Origin;
 pub use tint::{Tint, fresnel};
 
@@ -85,9 +87,9 @@ impl MapOptions {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComponentMaps {
     /// What it shows directly, with its coverage.
-    pub texture: Layer,
+    pub texture: Mipmapped,
     /// What the water shows of it, with its coverage; `None` when nothing of it can be mirrored.
-    pub reflection: Option<Layer>,
+    pub reflection: Option<Mipmapped>,
     /// Where the reflection map's texels came from.
     pub shares: OriginShares,
     /// How much coverage the alpha lift added, mean 0–1; above [`HALO_LIFT`] a halo will show when the camera moves.
@@ -199,8 +201,8 @@ impl Maps {
             .map(|(index, ((texture, reflection), origin))| ComponentMaps {
                 shares: shares(reflection.as_ref(), &origin, picture),
                 mean_lift: texture::mean_lift(&texture, &coverage.alpha[index]),
-                texture,
-                reflection,
+                texture: texture.into(),
+                reflection: reflection.map(Mipmapped::from),
             })
             .collect();
         step(1.0, "done")?;

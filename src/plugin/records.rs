@@ -1,23 +1,28 @@
 //! The small float texture that tells the shaders about views and components.
 //!
-//! Rows 0 to 7 belong to views, row 8 to the components; the layout stands in `material/tour.wgsl`. It is written in
-//! place each frame that anything changed, so no material is touched.
+//! Rows 0 to 7 belong to views and say where each finds the components, row 8 says what the components are; the layout
+//! stands in `material/tour.wgsl`. It is written in place each frame that anything changed, so no material is touched.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::Image;
-use bevy::math::{DAffine3, Mat4, Vec4};
+use bevy::math::{DAffine3, DVec2, Mat4, Vec4};
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
 use super::atlas::Place;
 use crate::maps::Layer;
 use crate::scene::MAX_COMPONENTS;
+use crate::scene::Placement;
 use crate::scene::Surface;
 
 /// How many cameras can look at one tour in one frame.
 pub(super) const MAX_VIEWS: usize = 8;
 
-const TEXELS_PER_COMPONENT: usize = 4;
+const TEXELS_PER_COMPONENT: usize = 5;
+/// Where a view's row begins to say where the components are, and how many texels each takes.
+const FIRST_PLACEMENT: usize = 8 + MAX_COMPONENTS / 4;
+const TEXELS_PER_PLACEMENT: usize = 3;
 const WIDTH: usize = MAX_COMPONENTS * TEXELS_PER_COMPONENT;
+const _: () = assert!(FIRST_PLACEMENT + MAX_COMPONENTS * TEXELS_PER_PLACEMENT <= WIDTH);
 const HEIGHT: usize = MAX_VIEWS + 1;
 
 /// One camera's look at a tour.
@@ -31,6 +36,8 @@ pub(super) struct ViewRecord {
     pub walls_near_to_far: Vec<usize>,
     /// The ground's index.
     pub ground: Option<usize>,
+    /// Where each wall is, by component.
+    pub placements: Vec<Option<Placement>>,
 }
 
 /// The texture's values.
@@ -65,6 +72,12 @@ impl Records {
             for (place, &index) in view.walls_near_to_far.iter().enumerate() {
                 texels[8 + place / 4][place % 4] = index as f32;
             }
+            let placements = texels[FIRST_PLACEMENT..].chunks_exact_mut(TEXELS_PER_PLACEMENT);
+            for (texels, placement) in placements.zip(&view.placements) {
+                if let Some(Placement { origin, along, up }) = placement {
+                    texels.copy_from_slice(&[origin, along, up].map(|vector| vector.as_vec3().extend(0.0)));
+                }
+            }
         }
     }
 
@@ -72,33 +85,27 @@ impl Records {
     pub(super) fn set_component(&mut self, index: usize, surface: &Surface, map: Option<(&Layer, Place)>) {
         let first = MAX_VIEWS * WIDTH + index * TEXELS_PER_COMPONENT;
         let texels = &mut self.0[first..first + TEXELS_PER_COMPONENT];
+        let extent = |along: [f64; 2], up: [f64; 2]| {
+            Vec4::new(along[0] as f32, along[1] as f32, up[0] as f32, up[1] as f32)
+        };
         match surface {
             Surface::Wall(wall) => {
-                let normal = wall.normal();
-                let along_of_foot = wall.foot.dot(wall.along);
-                let span = wall.span.map(|s| s + along_of_foot);
-                texels[0] = Vec4::new(0.0, normal.x as f32, normal.y as f32, normal.dot(wall.foot) as f32);
-                texels[1] =
-                    Vec4::new(span[0] as f32, span[1] as f32, wall.rise[0] as f32, wall.rise[1] as f32);
+                let [foot, along] = [wall.foot, wall.along].map(DVec2::as_vec2);
+                texels[0] = Vec4::ZERO;
+                texels[1] = Vec4::new(foot.x, foot.y, along.x, along.y);
+                texels[2] = extent(wall.span, wall.rise);
             }
             Surface::Level(level) => {
-                texels[0] = Vec4::new(1.0, 0.0, 0.0, level.height as f32);
-                texels[1] = Vec4::new(
-                    level.low.x as f32,
-                    level.high.x as f32,
-                    level.low.y as f32,
-                    level.high.y as f32,
-                );
+                let (low, high) = (level.low, level.high);
+                texels[0] = Vec4::new(1.0, level.height as f32, 0.0, 0.0);
+                texels[2] = extent([low.x, high.x], [low.y, high.y]);
             }
-            Surface::Infinity => {
-                texels[0] = Vec4::new(2.0, 0.0, 1.0, 0.0);
-                texels[1] = Vec4::ZERO;
-            }
+            Surface::Infinity => texels[0] = Vec4::new(2.0, 0.0, 0.0, 0.0),
         }
         if let Some((layer, place)) = map {
             let (origin, size) = (layer.origin.as_vec2(), layer.size.as_vec2());
-            texels[2] = Vec4::new(origin.x, origin.y, size.x, size.y);
-            texels[3] = Vec4::new(place.at.x as f32, place.at.y as f32, place.scale, 1.0);
+            texels[3] = Vec4::new(origin.x, origin.y, size.x, size.y);
+            texels[4] = Vec4::new(place.at.x as f32, place.at.y as f32, place.scale, 1.0);
         }
     }
 
@@ -117,29 +124,5 @@ impl Records {
             TextureFormat::Rgba32Float,
             RenderAssetUsages::RENDER_WORLD | RenderAssetUsages::MAIN_WORLD,
         )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use bevy::math::DVec2;
-
-    use super::*;
-    use crate::scene::Wall;
-
-    #[test]
-    fn a_wall_s_record_says_where_its_points_are() {
-        let along = DVec2::new(3.0, -4.0) / 5.0;
-        let wall = Wall { foot: DVec2::new(2.0, -10.0), along, span: [-1.0, 5.0], rise: [-0.5, 4.0] };
-        let mut records = Records::new();
-        records.set_component(3, &Surface::Wall(wall), None);
-        let first = MAX_VIEWS * WIDTH + 3 * TEXELS_PER_COMPONENT;
-        let (plane, extent) = (records.0[first], records.0[first + 1]);
-        let point = wall.point(5.0, 1.0).as_vec3();
-        // The shader's own formulas: normal · (x, z) = offset, and along = (normal.y, −normal.x).
-        let off = plane.y * point.x + plane.z * point.z - plane.w;
-        assert!(off.abs() < 1e-5, "{off} m off the plane");
-        let s = plane.z * point.x - plane.y * point.z;
-        assert!((s - extent.y).abs() < 1e-5, "{s} instead of {} m along", extent.y);
     }
 }

@@ -10,11 +10,11 @@ use bevy::mesh::{Indices, PrimitiveTopology};
 use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
-use super::atlas::{self, Atlas, Place};
+use super::atlas::{self, Atlas, Texels};
 use super::material::{ColorPolicy, TourMaterial, TourUniform};
 use super::records::{Records, ViewRecord};
 use crate::assemble::AssembledTour;
-use crate::maps::Layer;
+use crate::maps::Mipmapped;
 use crate::scene::Surface;
 
 /// What was solved and built for a tour: parameters, report, scene and maps. On the tour's entity once it is ready.
@@ -84,7 +84,6 @@ pub(super) fn show(
     let scene = &tour.scene;
     let picture = scene.camera.intrinsics.size;
     let (maps, atlas) = packed(&tour, largest);
-    let maps: Vec<Option<&Layer>> = maps.iter().map(Option::as_deref).collect();
     if atlas.scale < 1.0 {
         warn!(
             "the reflection maps are larger than this device's textures ({largest} px): they are scaled to {:.0} %, \
@@ -94,7 +93,7 @@ pub(super) fn show(
     }
     let mut records = Records::new();
     for (index, component) in scene.components.iter().enumerate() {
-        let map: Option<(&Layer, Place)> = maps[index].zip(atlas.places[index]);
+        let map = maps[index].as_deref().map(|map| &map.layer).zip(atlas.places[index]);
         records.set_component(index, &component.surface, map);
     }
     let image = assets.images.add(records.image());
@@ -102,12 +101,11 @@ pub(super) fn show(
 
     let mut textures = Vec::with_capacity(scene.components.len());
     for (index, component) in scene.components.iter().enumerate() {
-        let layer = &*atlas::trimmed(&tour.maps.components[index].texture, picture, largest);
+        let map = atlas::trimmed(&tour.maps.components[index].texture, picture, largest);
         let infinite = component.surface == Surface::Infinity;
-        let (origin, size) = (layer.origin.as_vec2(), layer.size.as_vec2());
-        let placed = Vec4::new(origin.x, origin.y, size.x, size.y);
-        let uniform = TourUniform::new(scene, index, placed, infinite);
-        let map = assets.images.add(texture(layer, largest));
+        let (texels, scale) = texels(&map, largest);
+        let uniform = TourUniform::new(scene, index, Some((&map.layer, scale)));
+        let map = assets.images.add(image_of(texels));
         textures.push(map.clone());
         let material = TourMaterial {
             tour: uniform,
@@ -120,11 +118,13 @@ pub(super) fn show(
         let mesh = assets.meshes.add(quad(corners(&component.surface)));
         let depth = assets.materials.add(material.depth_only());
         let material = assets.materials.add(material);
-        spawner.part(&component.name, TourPart::Component(index), mesh, material, depth, infinite);
+        // What turns leaves its mesh's box.
+        let unbounded = infinite || component.turns_to_camera;
+        spawner.part(&component.name, TourPart::Component(index), mesh, material, depth, unbounded);
     }
-    let atlas = scene.water.then(|| assets.images.add(image_of(atlas.size, &atlas.texels)));
+    let atlas = scene.water.then(|| assets.images.add(image_of(atlas.texture)));
     if let Some(map) = &atlas {
-        let uniform = TourUniform::new(scene, 0, Vec4::ONE, false);
+        let uniform = TourUniform::new(scene, 0, None);
         let material = TourMaterial {
             tour: uniform,
             records: image.clone(),
@@ -177,25 +177,26 @@ pub(super) fn refine(
         }
     };
     for (handle, maps) in shown.textures.iter().zip(&tour.maps.components) {
-        replace(handle, texture(&atlas::trimmed(&maps.texture, picture, largest), largest));
+        let map = atlas::trimmed(&maps.texture, picture, largest);
+        replace(handle, image_of(texels(&map, largest).0));
     }
     if let Some(handle) = &shown.atlas {
         let (_, atlas) = packed(&tour, largest);
-        replace(handle, image_of(atlas.size, &atlas.texels));
+        replace(handle, image_of(atlas.texture));
     }
     commands.entity(root).try_insert(SolvedTour(tour));
 }
 
 /// All reflection maps of a tour, as far as a device's textures hold them, and where they lie in one texture.
-fn packed(tour: &AssembledTour, largest: u32) -> (Vec<Option<Cow<'_, Layer>>>, Atlas) {
+fn packed(tour: &AssembledTour, largest: u32) -> (Vec<Option<Cow<'_, Mipmapped>>>, Atlas) {
     let picture = tour.scene.camera.intrinsics.size;
-    let maps: Vec<Option<Cow<Layer>>> = tour
+    let maps: Vec<Option<Cow<Mipmapped>>> = tour
         .maps
         .components
         .iter()
         .map(|maps| maps.reflection.as_ref().map(|map| atlas::trimmed(map, picture, largest)))
         .collect();
-    let borrowed: Vec<Option<&Layer>> = maps.iter().map(Option::as_deref).collect();
+    let borrowed: Vec<Option<&Mipmapped>> = maps.iter().map(Option::as_deref).collect();
     let atlas = atlas::pack(&borrowed, largest);
     (maps, atlas)
 }
@@ -215,7 +216,7 @@ impl Spawner<'_, '_, '_> {
         mesh: Handle<Mesh>,
         material: Handle<TourMaterial>,
         depth: Handle<TourMaterial>,
-        infinite: bool,
+        unbounded: bool,
     ) {
         let bundle = (Mesh3d(mesh), Transform::default(), Visibility::default());
         let shown = self
@@ -243,7 +244,7 @@ impl Spawner<'_, '_, '_> {
             if let Some(layers) = self.layers {
                 entity.insert(layers.clone());
             }
-            if infinite {
+            if unbounded {
                 entity.insert(NoFrustumCulling);
             }
         }
@@ -283,26 +284,25 @@ fn corners(surface: &Surface) -> [Vec3; 4] {
     }
 }
 
-/// A layer as a texture, scaled down where the device cannot hold it.
-fn texture(layer: &Layer, largest: u32) -> Image {
-    let longest = layer.size.max_element();
-    let scale = if longest > largest { largest as f32 / longest as f32 } else { 1.0 };
+/// A map's texels, scaled down where the device cannot hold it, and texels per picture pixel.
+fn texels(map: &Mipmapped, largest: u32) -> (Texels, f32) {
+    let (texels, scale) = Texels::of(map, largest);
     if scale < 1.0 {
         warn!(
             "a layer of {} px is scaled to {:.0} %: the device's textures end at {largest} px",
-            longest,
+            map.layer.size.max_element(),
             100.0 * scale
         );
     }
-    let (size, texels) = atlas::scaled_layer(layer, scale);
-    image_of(size, &texels)
+    (texels, scale)
 }
 
-fn image_of(size: UVec2, texels: &[[u8; 4]]) -> Image {
-    let extent = Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 };
+fn image_of(texels: Texels) -> Image {
+    let size = Extent3d { width: texels.size.x, height: texels.size.y, depth_or_array_layers: 1 };
     let format = TextureFormat::Rgba8UnormSrgb;
-    let data = texels.as_flattened().to_vec();
-    let mut image = Image::new(extent, TextureDimension::D2, data, format, RenderAssetUsages::RENDER_WORLD);
+    let mut image = Image::new_uninit(size, TextureDimension::D2, format, RenderAssetUsages::RENDER_WORLD);
+    image.texture_descriptor.mip_level_count = texels.levels.len() as u32;
+    image.data = Some(texels.levels.concat().into_flattened());
     image.sampler = ImageSampler::linear();
     image
 }

@@ -12,8 +12,8 @@ use bevy::render::extract_resource::ExtractResource;
 use super::camera::TourCameraState;
 use super::records::{MAX_VIEWS, ViewRecord};
 use super::spawn::{DepthPass, ShownTour, SolvedTour, TourPart};
-use crate::scene::Surface;
 use crate::scene::TourScene;
+use crate::scene::{Arrangement, Placement, Surface};
 
 /// Per camera: the sort distance of each part's mesh, view depth as Bevy counts it (nearer is greater).
 #[derive(Resource, ExtractResource, Clone, Debug, Default)]
@@ -55,7 +55,8 @@ pub(super) fn look_at_tours(
             if !tour_from_view.is_finite() {
                 continue;
             }
-            let near_to_far = solved.scene.near_to_far(tour_from_view.translation);
+            let Arrangement { placements, near_to_far } =
+                solved.scene.arranged_for(tour_from_view.translation);
             let distances = new_order.entry(camera).or_default();
             let scale =
                 (affine(transform).matrix3.inverse() * affine(tour_transform).matrix3).x_axis.length();
@@ -75,6 +76,7 @@ pub(super) fn look_at_tours(
                 tour_from_view,
                 walls_near_to_far: solved.scene.walls_of(&near_to_far).collect(),
                 ground: solved.scene.ground(),
+                placements: at_rest_unless_placed(&solved.scene, placements),
             });
         }
         let shown = shown.bypass_change_detection();
@@ -87,6 +89,15 @@ pub(super) fn look_at_tours(
         }
     }
     order.0 = new_order;
+}
+
+/// Where every wall is.
+fn at_rest_unless_placed(scene: &TourScene, placements: Vec<Option<Placement>>) -> Vec<Option<Placement>> {
+    let resting = scene.components.iter().map(|component| match component.surface {
+        Surface::Wall(wall) => Some(wall.resting()),
+        Surface::Level(_) | Surface::Infinity => None,
+    });
+    placements.into_iter().zip(resting).map(|(placed, resting)| placed.or(resting)).collect()
 }
 
 fn affine(transform: &GlobalTransform) -> DAffine3 {

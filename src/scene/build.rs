@@ -44,6 +44,8 @@ pub struct BillboardPlan {
     pub support: Support,
     /// Left and right foot in the picture.
     pub contact: [PicturePoint; 2],
+    /// Whether it turns towards a camera that moves around it.
+    pub turns_to_camera: bool,
     /// The mask's box in pixels, low corner and high corner (exclusive).
     pub mask_box: [IVec2; 2],
 }
@@ -69,7 +71,12 @@ pub struct ScenePlan {
 pub fn build(plan: &ScenePlan) -> (TourScene, Vec<String>) {
     let mut remarks = Vec::new();
     let backdrops = backdrop::place_all(&plan.camera, &plan.backdrops, &mut remarks);
-    let component = |name: &str, role, surface| SceneComponent { name: name.to_owned(), role, surface };
+    let component = |name: &str, role, surface| SceneComponent {
+        name: name.to_owned(),
+        role,
+        surface,
+        turns_to_camera: false,
+    };
     let last = &backdrops[0];
     let nearest = backdrops.iter().map(|placed| placed.distance).fold(f64::INFINITY, f64::min);
     let mut components = vec![component(&last.name, Role::LastLayer, last.surface)];
@@ -94,7 +101,10 @@ pub fn build(plan: &ScenePlan) -> (TourScene, Vec<String>) {
             Support::Ground => plan.ground_height.unwrap_or(0.0),
         };
         let wall = billboard_wall(&plan.camera, billboard, height, [nearest, distance], &mut remarks);
-        components.push(component(&billboard.name, Role::Billboard, Surface::Wall(wall)));
+        components.push(SceneComponent {
+            turns_to_camera: billboard.turns_to_camera,
+            ..component(&billboard.name, Role::Billboard, Surface::Wall(wall))
+        });
     }
     let bounds = CameraBounds::of(&plan.camera, plan.ground_height, &components);
     (TourScene { camera: plan.camera, water: plan.water, components, bounds }, remarks)
@@ -148,11 +158,8 @@ fn billboard_wall(
     let [left, right] = feet;
     let mean = 0.5 * (left.y + right.y);
     let yawed = ((left.y - right.y) / mean).abs() > FRONTAL_WITHIN && left.distance(right) > 1e-6;
-    let (foot, along) = if yawed {
-        (left, (right - left).normalize())
-    } else {
-        (DVec2::new(0.5 * (left.x + right.x), mean), DVec2::X)
-    };
+    let foot = DVec2::new(0.5 * (left.x + right.x), mean);
+    let along = if yawed { (right - left).normalize() } else { DVec2::X };
     let unbounded = [f64::NEG_INFINITY, f64::INFINITY];
     let plane = Wall { foot, along, span: unbounded, rise: unbounded };
     let [low, high] = [plan.mask_box[0].as_dvec2(), plan.mask_box[1].as_dvec2()];
@@ -210,6 +217,7 @@ mod tests {
                 name: "boat".into(),
                 support: Support::Water,
                 contact,
+                turns_to_camera: false,
                 mask_box: [IVec2::new(320, 290), IVec2::new(560, 410)],
             }],
         }
@@ -242,7 +250,8 @@ mod tests {
             build(&plan([PicturePoint::new(320.0, 403.333_333), PicturePoint::new(560.0, 350.0)]));
         let Surface::Wall(wall) = scene.components[2].surface else { panic!("a billboard is a wall") };
         let ends = [-12.0, -20.0];
-        let (left, right) = (wall.foot, wall.foot + wall.along * DVec2::new(4.4, 8.0).length());
+        let half = 0.5 * DVec2::new(4.4, 8.0).length() * wall.along;
+        let (left, right) = (wall.foot - half, wall.foot + half);
         assert!((left.y - ends[0]).abs() < 1e-4 && (right.y - ends[1]).abs() < 1e-3, "{left} to {right}");
     }
 }

@@ -4,12 +4,14 @@
 //! is the plane y = 0 itself and no component; everything else is one. Component 0 is always the last layer, the
 //! farthest of what closes the scene: a ray that misses everything sees it at infinity.
 
+mod arrangement;
 mod backdrop;
 mod bounds;
 mod build;
 mod order;
 mod surface;
 
+pub use arrangement::{Arrangement, Meeting, Placement, RestPoint};
 pub use backdrop::{BackdropPlace, BackdropPlan};
 pub use bounds::{BEYOND_BORDER, CameraBounds};
 pub use build::{BillboardPlan, MAX_COMPONENTS, ScenePlan, build, margin_px};
@@ -38,8 +40,10 @@ pub struct SceneComponent {
     pub name: String,
     /// What it is for.
     pub role: Role,
-    /// Where it is.
+    /// Where it rests.
     pub surface: Surface,
+    /// Whether it turns towards a camera that moves around it.
+    pub turns_to_camera: bool,
 }
 
 /// Everything that is geometry: the picture's own camera and the planes it looks at.
@@ -70,26 +74,9 @@ impl TourScene {
     }
 
     /// All components in the order of drawing, near to far as seen from `position` (meters; only x and z matter).
-    ///
-    /// The ground ends where the first band stands, so it comes just before that; the last layer is last.
     #[must_use]
     pub fn near_to_far(&self, position: glam::DVec3) -> Vec<usize> {
-        let walls: Vec<(usize, &Wall)> = self
-            .components
-            .iter()
-            .enumerate()
-            .filter_map(|(index, component)| match (&component.role, &component.surface) {
-                (Role::Billboard | Role::Band, Surface::Wall(wall)) => Some((index, wall)),
-                _ => None,
-            })
-            .collect();
-        let mut order = near_to_far(&walls, glam::DVec2::new(position.x, position.z));
-        if let Some(ground) = self.ground() {
-            let first_band = order.iter().position(|&index| self.components[index].role == Role::Band);
-            order.insert(first_band.unwrap_or(order.len()), ground);
-        }
-        order.push(0);
-        order
+        self.arranged_for(position).near_to_far
     }
 
     /// The billboards and bands of an order of drawing.

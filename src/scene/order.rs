@@ -12,13 +12,13 @@ use super::Wall;
 /// A wall comes before every wall that it hides. Where walls hide each other in a circle (they cross, or lie in one
 /// line), the one whose contact line comes nearest to `eye` goes first.
 #[must_use]
-pub fn near_to_far(walls: &[(usize, &Wall)], eye: DVec2) -> Vec<usize> {
-    let mut rest: Vec<&(usize, &Wall)> = walls.iter().collect();
-    rest.sort_by(|a, b| distance(a.1, eye).total_cmp(&distance(b.1, eye)));
+pub fn near_to_far(walls: &[(usize, Wall)], eye: DVec2) -> Vec<usize> {
+    let mut rest: Vec<&(usize, Wall)> = walls.iter().collect();
+    rest.sort_by(|a, b| distance(&a.1, eye).total_cmp(&distance(&b.1, eye)));
     let mut order = Vec::with_capacity(rest.len());
     while !rest.is_empty() {
         let first = (0..rest.len())
-            .find(|&i| (0..rest.len()).all(|j| j == i || !hides(rest[j].1, rest[i].1, eye)))
+            .find(|&i| (0..rest.len()).all(|j| j == i || !hides(&rest[j].1, &rest[i].1, eye)))
             .unwrap_or(0);
         order.push(rest.remove(first).0);
     }
@@ -81,9 +81,9 @@ mod tests {
         let quay = wall(DVec2::new(4.0, -5.0), DVec2::new(20.0, -60.0));
         let boat = wall(DVec2::new(4.0, -20.0), DVec2::new(7.0, -20.0));
         let house = wall(DVec2::new(14.0, -30.0), DVec2::new(22.0, -30.0));
-        let walls = [(0, &quay), (1, &boat), (2, &house)];
+        let walls = [(0, quay), (1, boat), (2, house)];
         assert_eq!(near_to_far(&walls, DVec2::ZERO), [1, 0, 2]);
-        let shuffled = [(2, &house), (0, &quay), (1, &boat)];
+        let shuffled = [(2, house), (0, quay), (1, boat)];
         assert_eq!(near_to_far(&shuffled, DVec2::ZERO), [1, 0, 2]);
     }
 
@@ -91,9 +91,9 @@ mod tests {
     fn frontal_walls_sort_by_depth_and_crossing_ones_end() {
         let near = wall(DVec2::new(-1.0, -5.0), DVec2::new(1.0, -5.0));
         let far = wall(DVec2::new(-2.0, -9.0), DVec2::new(2.0, -9.0));
-        assert_eq!(near_to_far(&[(0, &far), (1, &near)], DVec2::ZERO), [1, 0]);
+        assert_eq!(near_to_far(&[(0, far), (1, near)], DVec2::ZERO), [1, 0]);
         let a = wall(DVec2::new(-1.0, -5.0), DVec2::new(1.0, -7.0));
         let b = wall(DVec2::new(-1.0, -7.0), DVec2::new(1.0, -5.0));
-        assert_eq!(near_to_far(&[(0, &a), (1, &b)], DVec2::ZERO).len(), 2);
+        assert_eq!(near_to_far(&[(0, a), (1, b)], DVec2::ZERO).len(), 2);
     }
 }

@@ -7,7 +7,7 @@ use crate::camera::Ray;
 /// A vertical rectangle through a contact line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall {
-    /// A point of the contact line's prolongation, (x, z) in meters.
+    /// The middle of the contact line, or another point of its prolongation, (x, z) in meters.
     pub foot: DVec2,
     /// Unit vector (x, z) along the contact line, from its left to its right end as the picture shows it.
     pub along: DVec2,

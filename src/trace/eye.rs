@@ -20,14 +20,15 @@ impl Eye {
         Self { position: camera.pose.position, picture_from_direction: camera.picture_from_world_direction() }
     }
 
-    /// Where a point of the world is in the picture.
-    pub(super) fn see(&self, point: DVec3) -> PicturePoint {
+    /// Where a point of the world is in the picture, and its view depth there, meters.
+    pub(super) fn see(&self, point: DVec3) -> (PicturePoint, f64) {
         self.see_far(point - self.position)
     }
 
-    /// Where a point infinitely far in a direction is in the picture.
-    pub(super) fn see_far(&self, direction: DVec3) -> PicturePoint {
+    /// Where a point infinitely far in a direction is in the picture, and the view depth of the direction itself.
+    pub(super) fn see_far(&self, direction: DVec3) -> (PicturePoint, f64) {
         let seen = self.picture_from_direction * direction;
-        PicturePoint(seen.truncate() / seen.z.max(LEAST_DEPTH))
+        let depth = seen.z.max(LEAST_DEPTH);
+        (PicturePoint(seen.truncate() / depth), depth)
     }
 }

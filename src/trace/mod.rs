@@ -12,16 +12,18 @@ pub use water_surface::{StillWater, WaterPoint, WaterSurface};
 
 use eye::Eye;
 
-use glam::{DVec2, UVec2};
+use glam::{DVec2, DVec3, UVec2};
 use rayon::prelude::*;
 
 use crate::camera::PinholeCamera;
 use crate::camera::Ray;
-use crate::maps::Layer;
 use crate::maps::Maps;
+use crate::maps::Mipmapped;
+use crate::maps::mip_level;
 use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::picture::color::srgb_from_linear3;
+use crate::scene::Arrangement;
 use crate::scene::Role;
 use crate::scene::Surface;
 use crate::scene::TourScene;
@@ -66,14 +68,14 @@ impl<'a> Reference<'a> {
     pub fn render(&self, camera: &PinholeCamera, samples: u32) -> Picture {
         let size = camera.intrinsics.size.max(UVec2::ONE);
         let offsets = sample_offsets(samples);
-        let order = self.scene.near_to_far(camera.pose.position);
+        let look = Look::of(camera, self.scene);
         let mut pixels = vec![[0_u8; 3]; size.x as usize * size.y as usize];
         pixels.par_chunks_mut(size.x as usize).enumerate().for_each(|(row, pixels)| {
             for (column, pixel) in pixels.iter_mut().enumerate() {
                 let corner = DVec2::new(column as f64, row as f64);
                 let mut sum = [0.0_f32; 3];
                 for &offset in &offsets {
-                    let color = self.look(camera.ray(PicturePoint(corner + offset)), &order);
+                    let color = self.look(camera.ray(PicturePoint(corner + offset)), &look);
                     for c in 0..3 {
                         sum[c] += color[c];
                     }
@@ -86,32 +88,46 @@ impl<'a> Reference<'a> {
     }
 
     /// The color along a ray of the world, linear light.
-    fn look(&self, ray: Ray, near_to_far: &[usize]) -> [f32; 3] {
+    fn look(&self, ray: Ray, look: &Look) -> [f32; 3] {
         let mut light = Accumulated::default();
-        for &index in near_to_far {
-            let component = &self.scene.components[index];
-            if let Some(t) = component.surface.meet(ray) {
+        for &index in &look.arrangement.near_to_far {
+            if let Some(met) = look.arrangement.meet(self.scene, index, ray) {
                 // At infinity only the direction counts.
-                let at =
-                    if t.is_finite() { self.eye.see(ray.at(t)) } else { self.eye.see_far(ray.direction) };
-                light.add(self.maps.components[index].texture.sample(at));
+                let texel = if met.t.is_finite() {
+                    self.read(&self.maps.components[index].texture, look, met.point, met.rest.0)
+                } else {
+                    self.read_far(&self.maps.components[index].texture, look, ray.direction)
+                };
+                light.add(texel);
                 if light.left < OPAQUE {
                     return light.color;
                 }
             }
         }
         let last = if self.scene.water && ray.direction.y < 0.0 {
-            self.mirrored(ray, near_to_far)
+            self.mirrored(ray, look)
         } else {
-            let [r, g, b, _] = self.maps.components[0].texture.sample(self.eye.see_far(ray.direction));
+            let [r, g, b, _] = self.read_far(&self.maps.components[0].texture, look, ray.direction);
             [r, g, b]
         };
         light.add([last[0], last[1], last[2], 1.0]);
         light.color
     }
 
+    /// A map at a point `rest` that is seen at `point`.
+    fn read(&self, map: &Mipmapped, look: &Look, point: DVec3, rest: DVec3) -> [f32; 4] {
+        let (at, depth) = self.eye.see(rest);
+        map.sample(at, look.level(self.scene, point - look.position, depth))
+    }
+
+    /// A map infinitely far in a direction.
+    fn read_far(&self, map: &Mipmapped, look: &Look, direction: DVec3) -> [f32; 4] {
+        let (at, depth) = self.eye.see_far(direction);
+        map.sample(at, look.level(self.scene, direction, depth))
+    }
+
     /// What the water shows to a ray that goes down to it.
-    fn mirrored(&self, ray: Ray, near_to_far: &[usize]) -> [f32; 3] {
+    fn mirrored(&self, ray: Ray, look: &Look) -> [f32; 3] {
         let mut at = ray.at(-ray.origin.y / ray.direction.y);
         let mut water = self.water.at(DVec2::new(at.x, at.z));
         if water.height != 0.0 {
@@ -126,9 +142,9 @@ impl<'a> Reference<'a> {
 
         let mut light = Accumulated::default();
         // The ground is level: which walls it hides depends on the ray.
-        let mut ground = self.scene.ground().and_then(|index| self.mirror_hit(index, up));
-        for index in self.scene.walls_of(near_to_far) {
-            let Some((t, texel)) = self.mirror_hit(index, up) else { continue };
+        let mut ground = self.scene.ground().and_then(|index| self.mirror_hit(index, up, look));
+        for index in self.scene.walls_of(&look.arrangement.near_to_far) {
+            let Some((t, texel)) = self.mirror_hit(index, up, look) else { continue };
             if let Some((_, texel)) = ground.take_if(|(t_ground, _)| *t_ground < t) {
                 light.add(texel);
             }
@@ -141,23 +157,51 @@ impl<'a> Reference<'a> {
             light.add(texel);
         }
         let Some(last) = &self.maps.components[0].reflection else { return light.color };
-        let seen = match self.scene.last_layer().surface {
+        let met = match self.scene.last_layer().surface {
             Surface::Infinity => None,
-            surface => surface.meet(up).map(|t| self.eye.see(mirror(up.at(t)))),
+            surface => surface.meet(up).map(|t| mirror(up.at(t))),
         };
-        let [r, g, b, _] = last.sample(seen.unwrap_or_else(|| self.eye.see_far(mirror(up.direction))));
+        let [r, g, b, _] = match met {
+            Some(point) => self.read(last, look, point, point),
+            None => self.read_far(last, look, mirror(up.direction)),
+        };
         light.add([r, g, b, 1.0]);
         light.color
     }
 
     /// Where a mirrored ray meets a component above the water, and the texel of its reflection map there.
-    fn mirror_hit(&self, index: usize, up: Ray) -> Option<(f64, [f32; 4])> {
-        let layer: &Layer = self.maps.components[index].reflection.as_ref()?;
+    fn mirror_hit(&self, index: usize, up: Ray, look: &Look) -> Option<(f64, [f32; 4])> {
+        let map = self.maps.components[index].reflection.as_ref()?;
         let component = &self.scene.components[index];
         debug_assert!(component.role != Role::LastLayer, "the last layer is met by all rays");
-        let t = component.surface.meet(up)?;
-        let point = up.at(t);
-        (point.y >= 0.0).then(|| (t, layer.sample(self.eye.see(mirror(point)))))
+        let met = look.arrangement.meet(self.scene, index, up)?;
+        (met.point.y >= 0.0).then(|| (met.t, self.read(map, look, mirror(met.point), mirror(met.rest.0))))
+    }
+}
+
+/// A camera that looks at the scene.
+struct Look {
+    position: DVec3,
+    forward: DVec3,
+    focal_px: f64,
+    arrangement: Arrangement,
+}
+
+impl Look {
+    fn of(camera: &PinholeCamera, scene: &TourScene) -> Self {
+        Self {
+            position: camera.pose.position,
+            forward: camera.pose.rotation * DVec3::NEG_Z,
+            focal_px: camera.intrinsics.focal_px,
+            arrangement: scene.arranged_for(camera.pose.position),
+        }
+    }
+
+    /// The mip level for what lies `away` from this camera and `depth` meters before the picture's. Both maps and
+    /// screen are made by pinholes, so a pixel covers about as many texels across as up and down.
+    fn level(&self, scene: &TourScene, away: DVec3, depth: f64) -> f32 {
+        let texels_per_meter = scene.camera.intrinsics.focal_px / depth;
+        mip_level(texels_per_meter * self.forward.dot(away).max(0.0) / self.focal_px)
     }
 }
 

@@ -7,7 +7,7 @@ use bevy::prelude::*;
 use bevy::render::settings::WgpuLimits;
 use bevy::render::settings::{WgpuSettings, WgpuSettingsPriority};
 use bevy_picture_tour::assemble::TourSource;
-use bevy_picture_tour::camera::PinholeCamera;
+use bevy_picture_tour::camera::{Intrinsics, PinholeCamera};
 use bevy_picture_tour::headless::{HeadlessTour, headless_app, headless_app_with};
 use bevy_picture_tour::picture::{Mask, Picture, PicturePoint, PngPixels, save_png};
 use bevy_picture_tour::tour::{BackgroundPlace, Band, Region, Sky, Tour, TourFile};
@@ -83,6 +83,34 @@ fn a_kilometer_from_the_game_s_origin() {
 }
 
 #[test]
+fn what_turns_and_what_is_shown_small_is_drawn_alike() {
+    let Some(_gpu) = adapter() else { return };
+    let source = a1_with(|tour| tour.objects.iter_mut().for_each(|object| object.turns_to_camera = true));
+    // A third of the picture's size reads mip levels between 1 and 2.
+    let size = source.picture.size() / 3;
+    let mut gpu = HeadlessTour::new(source, size, Transform::default()).unwrap();
+    let solved = gpu.solved().expect("the tour is shown");
+    let own = solved.scene.camera;
+    let lens = own.intrinsics;
+    let third =
+        Intrinsics { focal_px: lens.focal_px / 3.0, principal: PicturePoint(lens.principal.0 / 3.0), size };
+    let reference = Reference::new(&solved.scene, &solved.maps);
+    let sideways = 0.3 * solved.scene.bounds.nearest;
+    for (name, x) in [("own", 0.0), ("right", sideways), ("left", -sideways)] {
+        let mut camera = PinholeCamera { intrinsics: third, ..own };
+        camera.pose.position.x += x;
+        let (frame, expected) = (gpu.render(&camera).unwrap(), reference.render(&camera, 1));
+        let found = Comparison::of(&frame, &expected).unwrap();
+        let (mean, within) = (found.mean_difference, found.share_within(3));
+        if mean >= MEAN || within < WITHIN_3 {
+            keep(&format!("turned_{name}"), &frame, &expected);
+        }
+        assert!(mean < MEAN, "{name}: mean difference {mean:.4} codes, at most {MEAN}");
+        assert!(within >= WITHIN_3, "{name}: {within:.5} within 3 codes, at least {WITHIN_3}");
+    }
+}
+
+#[test]
 fn the_demo_s_first_view_is_its_picture() {
     let Some(_gpu) = adapter() else { return };
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lake/lake.tour.ron");
@@ -98,7 +126,7 @@ fn the_demo_s_first_view_is_its_picture() {
     }
 }
 
-/// World A1 with another background.
+/// World A1 marked otherwise.
 fn a1_with(change: impl FnOnce(&mut TourFile)) -> Arc<TourSource> {
     let source = a1::source();
     let mut file = source.tour.to_file();

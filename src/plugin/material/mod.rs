@@ -11,6 +11,8 @@ use bevy::render::render_resource::{
 };
 use bevy::shader::{ShaderRef, load_shader_library};
 
+use crate::maps::Layer;
+use crate::scene::Surface;
 use crate::scene::TourScene;
 
 /// Whether the picture keeps its codes or follows the game's grading.
@@ -51,19 +53,23 @@ pub(super) struct TourUniform {
 const SOLID: f32 = 0.5;
 
 impl TourUniform {
-    /// The uniform of component `index`, whose texture map starts at `layer.xy` and has size `layer.zw` (picture
-    /// pixels).
-    pub(super) fn new(scene: &TourScene, index: usize, layer: Vec4, infinite: bool) -> Self {
+    /// The uniform of component `index` with its texture map and the map's texels per picture pixel; the water has none.
+    pub(super) fn new(scene: &TourScene, index: usize, map: Option<(&Layer, f32)>) -> Self {
         let camera = &scene.camera;
         let matrix = camera.picture_from_world_direction();
         let eye = camera.pose.position.as_vec3();
+        let infinite = map.is_some() && scene.components[index].surface == Surface::Infinity;
+        let (layer, scale) = map.map_or((Vec4::ZERO, 1.0), |(layer, scale)| {
+            let (origin, size) = (layer.origin.as_vec2(), layer.size.as_vec2());
+            (Vec4::new(origin.x, origin.y, size.x, size.y), scale)
+        });
         Self {
             picture_from_x: matrix.x_axis.as_vec3().extend(0.0),
             picture_from_y: matrix.y_axis.as_vec3().extend(0.0),
             picture_from_z: matrix.z_axis.as_vec3().extend(0.0),
             eye: eye.extend(index as f32),
             layer,
-            flags: Vec4::new(f32::from(u8::from(infinite)), -1.0, 0.0, 0.0),
+            flags: Vec4::new(f32::from(u8::from(infinite)), -1.0, scale, camera.intrinsics.focal_px as f32),
         }
     }
 
@@ -151,6 +157,7 @@ impl Material for TourMaterial {
                 fragment.shader_defs.push("TOUR_GRADED".into());
             }
             if pass.water {
+                descriptor.vertex.shader_defs.push("TOUR_WATER".into());
                 fragment.shader_defs.push("TOUR_WATER".into());
             }
             if pass.depth_only {

@@ -1,6 +1,8 @@
 // A tour's part: a component's texture map read through the picture's own camera, or the water.
 
-#import bevy_picture_tour::tour::{TourUniform, component, fragment_ray, meet_plane, see, see_far, sharp, snap, INFINITE}
+#import bevy_picture_tour::tour::{
+    TourUniform, component, eye_of, fragment_ray, level_of, meet, see, see_far, sharp, snap, INFINITE,
+}
 #import bevy_picture_tour::vertex::{TourVertex, Vertex, place}
 #import bevy_picture_tour::finish::finish
 #ifdef TOUR_WATER
@@ -30,13 +32,17 @@ fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
 #else
     let ray = fragment_ray(records, in.row, in.position.xy);
     let found = component(records, i32(tour.eye.w));
-    var at = see_far(tour, ray.direction);
+    var away = ray.direction;
+    var seen = see_far(tour, away);
     if found.kind != INFINITE {
-        at = see(tour, ray.origin + meet_plane(found, ray) * ray.direction);
+        let met = meet(records, in.row, i32(tour.eye.w), found, ray);
+        seen = see(tour, met.rest);
+        away = met.point - eye_of(records, in.row);
     }
-    let size = vec2<f32>(textureDimensions(map));
-    let texel = (snap(at) - tour.layer.xy) / tour.layer.zw * size;
-    let color = sharp(map, map_sampler, texel, vec2(0.0), size - 1.0);
+    let scale = tour.flags.z;
+    let level = level_of(tour, records, in.row, away, seen.z, scale);
+    let texel = (snap(seen.xy) - tour.layer.xy) * scale;
+    let color = sharp(map, map_sampler, texel, vec2(0.0), round(tour.layer.zw * scale) - 1.0, level);
     if color.a <= tour.flags.y {
         discard;
     }

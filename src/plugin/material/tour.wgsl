@@ -1,7 +1,8 @@
 // What the tour's shaders share: records, rays, and where the picture's camera sees a point.
 //
 // Points are found by intersecting rays in tour space; nothing is interpolated over a quad (architecture.md,
-// decision 2). `see`, `snap` and `sharp` are twins of `trace/eye.rs` and `maps/grid.rs`.
+// decision 2). `see` and `level_of` are twins of `trace/`, `snap`,
+// `sharp` and `mip_level` of `maps/grid.rs` and `maps/mipmaps.rs`, `meet` of `scene/arrangement.rs`.
 
 #define_import_path bevy_picture_tour::tour
 
@@ -9,7 +10,10 @@
 
 const VIEW_ROWS: i32 = 8;
 const COMPONENT_ROW: i32 = 8;
-const TEXELS_PER_COMPONENT: i32 = 4;
+const TEXELS_PER_COMPONENT: i32 = 5;
+const FIRST_PLACEMENT: i32 = 24;
+const TEXELS_PER_PLACEMENT: i32 = 3;
+const MIP_LEVELS: f32 = 4.0;
 const LEAST_DEPTH: f32 = 1e-3;
 
 const WALL: f32 = 0.0;
@@ -25,21 +29,39 @@ struct TourUniform {
     eye: vec4<f32>,
     // The texture map's first pixel and its size, picture pixels.
     layer: vec4<f32>,
-    // x: 1 where the mesh stands for infinity, y: most coverage that is dropped (0.5 in depth passes, else below 0).
+    // x: 1 where the mesh stands for infinity, y: most coverage that is dropped (0.5 in depth passes, else below 0),
+    // z: texels per picture pixel, w: the picture's focal length in its pixels.
     flags: vec4<f32>,
 }
 
 struct Component {
     kind: f32,
-    // Wall: normal.xy · (x, z) = offset. Level: offset is the height.
-    normal: vec2<f32>,
-    offset: f32,
-    // Wall: low and high along the contact line, low and high y. Level: low and high x, low and high z.
+    // Level: its height.
+    height: f32,
+    // Wall: x and z of its foot, and of the unit vector along it, at rest.
+    line: vec4<f32>,
+    // Wall: low and high along from the foot, low and high y. Level: low and high x, low and high z.
     extent: vec4<f32>,
     // The reflection map's first pixel and size, picture pixels.
     layer: vec4<f32>,
     // Its place in the atlas (xy, texels), its scale (z, texels per picture pixel), 1 if there is one (w).
     atlas: vec4<f32>,
+}
+
+// Where a wall is for a view: what is `s` along and `y` high lies at origin + s · along + y · up.
+struct Placement {
+    origin: vec3<f32>,
+    along: vec3<f32>,
+    up: vec3<f32>,
+}
+
+// Where a ray meets a component.
+struct Meeting {
+    // Along the ray; negative for a miss.
+    distance: f32,
+    point: vec3<f32>,
+    // The point of the resting component that is there.
+    rest: vec3<f32>,
 }
 
 struct Ray {
@@ -83,44 +105,93 @@ fn fragment_ray(records: texture_2d<f32>, row: i32, fragment: vec2<f32>) -> Ray 
 
 fn component(records: texture_2d<f32>, index: i32) -> Component {
     let first = index * TEXELS_PER_COMPONENT;
-    let plane = textureLoad(records, vec2(first, COMPONENT_ROW), 0);
+    let kind = textureLoad(records, vec2(first, COMPONENT_ROW), 0);
     return Component(
-        plane.x,
-        plane.yz,
-        plane.w,
+        kind.x,
+        kind.y,
         textureLoad(records, vec2(first + 1, COMPONENT_ROW), 0),
         textureLoad(records, vec2(first + 2, COMPONENT_ROW), 0),
         textureLoad(records, vec2(first + 3, COMPONENT_ROW), 0),
+        textureLoad(records, vec2(first + 4, COMPONENT_ROW), 0),
     );
 }
 
-// Distance along the ray to the component's unbounded plane; negative or infinite for a miss.
-fn meet_plane(found: Component, ray: Ray) -> f32 {
-    if found.kind == LEVEL {
-        return (found.offset - ray.origin.y) / ray.direction.y;
-    }
-    return (found.offset - dot(found.normal, ray.origin.xz)) / dot(found.normal, ray.direction.xz);
+fn placement(records: texture_2d<f32>, row: i32, index: i32) -> Placement {
+    let first = FIRST_PLACEMENT + index * TEXELS_PER_PLACEMENT;
+    return Placement(
+        textureLoad(records, vec2(first, row), 0).xyz,
+        textureLoad(records, vec2(first + 1, row), 0).xyz,
+        textureLoad(records, vec2(first + 2, row), 0).xyz,
+    );
 }
 
-fn contains(found: Component, point: vec3<f32>) -> bool {
-    var place = vec2(dot(vec2(found.normal.y, -found.normal.x), point.xz), point.y);
+// Where a resting point of a wall is for a view.
+fn placed(found: Component, at: Placement, rest: vec3<f32>) -> vec3<f32> {
+    return at.origin + dot(rest.xz - found.line.xy, found.line.zw) * at.along + rest.y * at.up;
+}
+
+// Where a ray meets the component's unbounded plane; `inside` tells whether that is in its rectangle.
+fn meet(records: texture_2d<f32>, row: i32, index: i32, found: Component, ray: Ray) -> Meeting {
     if found.kind == LEVEL {
-        place = point.xz;
+        let distance = (found.height - ray.origin.y) / ray.direction.y;
+        let point = ray.origin + distance * ray.direction;
+        return Meeting(distance, point, point);
+    }
+    let at = placement(records, row, index);
+    let normal = cross(at.along, at.up);
+    let distance = dot(normal, at.origin - ray.origin) / dot(normal, ray.direction);
+    let point = ray.origin + distance * ray.direction;
+    let s = dot(point - at.origin, at.along);
+    let y = dot(point - at.origin, at.up);
+    return Meeting(distance, point, vec3(found.line.x + s * found.line.z, y, found.line.y + s * found.line.w));
+}
+
+fn inside(found: Component, rest: vec3<f32>) -> bool {
+    var place = vec2(dot(rest.xz - found.line.xy, found.line.zw), rest.y);
+    if found.kind == LEVEL {
+        place = rest.xz;
     }
     return all(place >= found.extent.xz) && all(place <= found.extent.yw);
 }
 
-// Where a direction from the picture's camera is in the picture, pixels.
-fn see_far(tour: TourUniform, direction: vec3<f32>) -> vec2<f32> {
+// Where a direction from the picture's camera is in the picture, pixels; and the view depth of the direction itself.
+fn see_far(tour: TourUniform, direction: vec3<f32>) -> vec3<f32> {
     let seen = tour.picture_from_x.xyz * direction.x
         + tour.picture_from_y.xyz * direction.y
         + tour.picture_from_z.xyz * direction.z;
-    return seen.xy / max(seen.z, LEAST_DEPTH);
+    let depth = max(seen.z, LEAST_DEPTH);
+    return vec3(seen.xy / depth, depth);
 }
 
-// Where a point is in the picture, pixels.
-fn see(tour: TourUniform, point: vec3<f32>) -> vec2<f32> {
+// Where a point is in the picture, pixels; and its view depth there, meters.
+fn see(tour: TourUniform, point: vec3<f32>) -> vec3<f32> {
     return see_far(tour, point - tour.eye.xyz);
+}
+
+fn mip_level(texels: f32) -> f32 {
+    let octaves = log2(texels);
+    return clamp(select(1.25 * (octaves - 0.2), octaves, octaves >= 1.0), 0.0, MIP_LEVELS);
+}
+
+// The mip level for what lies `away` from a view's camera and `depth` meters before the picture's, in a map of `scale`
+// texels per picture pixel. Maps and screen are both made by pinholes, so a pixel covers about as many texels across as
+// up and down.
+fn level_of(
+    tour: TourUniform,
+    records: texture_2d<f32>,
+    row: i32,
+    away: vec3<f32>,
+    depth: f32,
+    scale: f32,
+) -> f32 {
+    let forward = -textureLoad(records, vec2(6, row), 0).xyz;
+    let focal = 0.5 * view.main_pass_viewport.w * view.clip_from_view[1][1];
+    return mip_level(scale * tour.flags.w * max(dot(forward, away), 0.0) / (focal * depth));
+}
+
+// Where a view's camera is.
+fn eye_of(records: texture_2d<f32>, row: i32) -> vec3<f32> {
+    return textureLoad(records, vec2(7, row), 0).xyz;
 }
 
 // Brings a point within 1/32 pixel of a pixel center to that center.
@@ -139,9 +210,38 @@ fn cubic(t: f32) -> vec4<f32> {
     );
 }
 
-// A map at `at`, in texels, kept within the block of texels from `low` to `high` (the last one): cubic, and within what
-// the four nearest texels span, so that nothing rings. The block's border is prolonged.
-fn sharp(map: texture_2d<f32>, filtering: sampler, at: vec2<f32>, low: vec2<f32>, high: vec2<f32>) -> vec4<f32> {
+// A map at `at`, in texels, kept within the block of texels from `low` to `high` (the last one), at a mip level. The
+// block's border is prolonged.
+fn sharp(
+    map: texture_2d<f32>,
+    filtering: sampler,
+    at: vec2<f32>,
+    low: vec2<f32>,
+    high: vec2<f32>,
+    level: f32,
+) -> vec4<f32> {
+    if level <= 0.0 {
+        return sharpest(map, filtering, at, low, high);
+    }
+    // Half a texel of the coarsest level that is read stays between the place and the block's border.
+    let step = exp2(ceil(level));
+    let limit = low + ceil((high - low + 1.0) / step) * step;
+    let place = clamp(at, low + 0.5 * step, limit - 0.5 * step) / vec2<f32>(textureDimensions(map));
+    let coarse = textureSampleLevel(map, filtering, place, max(level, 1.0));
+    if level >= 1.0 {
+        return coarse;
+    }
+    return mix(sharpest(map, filtering, at, low, high), coarse, level);
+}
+
+// The same at its finest level: cubic, and within what the four nearest texels span, so that nothing rings.
+fn sharpest(
+    map: texture_2d<f32>,
+    filtering: sampler,
+    at: vec2<f32>,
+    low: vec2<f32>,
+    high: vec2<f32>,
+) -> vec4<f32> {
     let inside = clamp(at, low + 0.5, high + 0.5);
     let corner = floor(inside - 0.5);
     let part = inside - 0.5 - corner;

@@ -3,7 +3,7 @@
 #define_import_path bevy_picture_tour::vertex
 
 #import bevy_pbr::{mesh_functions, view_transformations::position_world_to_clip}
-#import bevy_picture_tour::tour::{TourUniform, view_row}
+#import bevy_picture_tour::tour::{TourUniform, component, placed, placement, view_row, WALL}
 
 struct Vertex {
     @builtin(instance_index) instance_index: u32,
@@ -23,8 +23,16 @@ fn place(vertex: Vertex, tour: TourUniform, records: texture_2d<f32>) -> TourVer
         out.position = vec4(vertex.position.xy, 0.0, 1.0);
         return out;
     }
+    var local = vertex.position;
+#ifndef TOUR_WATER
+    let index = i32(tour.eye.w);
+    let found = component(records, index);
+    if found.kind == WALL {
+        local = placed(found, placement(records, out.row, index), local);
+    }
+#endif
     let world_from_local = mesh_functions::get_world_from_local(vertex.instance_index);
-    let world = mesh_functions::mesh_position_local_to_world(world_from_local, vec4(vertex.position, 1.0));
+    let world = mesh_functions::mesh_position_local_to_world(world_from_local, vec4(local, 1.0));
     out.position = position_world_to_clip(world.xyz);
     return out;
 }

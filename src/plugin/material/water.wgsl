@@ -5,8 +5,7 @@
 #define_import_path bevy_picture_tour::water
 
 #import bevy_picture_tour::tour::{
-    Component, Ray, TourUniform, component, contains, fragment_ray, meet_plane, mirror, see, see_far, sharp, snap,
-    INFINITE,
+    Component, Ray, TourUniform, component, eye_of, inside, level_of, meet, mirror, see, see_far, sharp, snap, INFINITE,
 }
 
 // Less light than this is left behind a layer: half a display code cannot change any more.
@@ -15,11 +14,11 @@ const OPAQUE: f32 = 1.0 / 8192.0;
 const LEAST_CLIMB: f32 = 1e-5;
 
 // A reflection map at a picture point; its border is prolonged.
-fn sample_map(maps: texture_2d<f32>, filtering: sampler, found: Component, at: vec2<f32>) -> vec4<f32> {
+fn sample_map(maps: texture_2d<f32>, filtering: sampler, found: Component, at: vec2<f32>, level: f32) -> vec4<f32> {
     // Within the map, or those beside it in the atlas would bleed in.
     let last = found.atlas.xy + round(found.layer.zw * found.atlas.z) - 1.0;
     let texel = found.atlas.xy + (snap(at) - found.layer.xy) * found.atlas.z;
-    return sharp(maps, filtering, texel, found.atlas.xy, last);
+    return sharp(maps, filtering, texel, found.atlas.xy, last, level);
 }
 
 struct Hit {
@@ -27,14 +26,33 @@ struct Hit {
     texel: vec4<f32>,
 }
 
+// The water's view: what every look at a reflection map needs.
+struct Look {
+    row: i32,
+    eye: vec3<f32>,
+}
+
 // Where a mirrored ray meets a component above the water; a negative distance for a miss.
-fn mirror_hit(tour: TourUniform, maps: texture_2d<f32>, filtering: sampler, found: Component, up: Ray) -> Hit {
-    let distance = meet_plane(found, up);
-    let point = up.origin + distance * up.direction;
-    if found.atlas.w < 0.5 || !(distance > 0.0) || !(distance < 1e9) || point.y < 0.0 || !contains(found, point) {
+fn mirror_hit(
+    tour: TourUniform,
+    records: texture_2d<f32>,
+    maps: texture_2d<f32>,
+    filtering: sampler,
+    look: Look,
+    index: i32,
+    up: Ray,
+) -> Hit {
+    let found = component(records, index);
+    if found.atlas.w < 0.5 {
         return Hit(-1.0, vec4(0.0));
     }
-    return Hit(distance, sample_map(maps, filtering, found, see(tour, mirror(point))));
+    let met = meet(records, look.row, index, found, up);
+    if !(met.distance > 0.0) || !(met.distance < 1e9) || met.point.y < 0.0 || !inside(found, met.rest) {
+        return Hit(-1.0, vec4(0.0));
+    }
+    let seen = see(tour, mirror(met.rest));
+    let level = level_of(tour, records, look.row, mirror(met.point) - look.eye, seen.z, found.atlas.z);
+    return Hit(met.distance, sample_map(maps, filtering, found, seen.xy, level));
 }
 
 struct Light {
@@ -63,16 +81,17 @@ fn mirrored(
         vec3(ray.direction.x, max(-ray.direction.y, LEAST_CLIMB), ray.direction.z),
     );
 
+    let look = Look(row, eye_of(records, row));
     var light = Light(vec3(0.0), 1.0);
     let count = i32(textureLoad(records, vec2(5, row), 0).w);
     let ground_index = i32(textureLoad(records, vec2(6, row), 0).w);
     var ground = Hit(-1.0, vec4(0.0));
     if ground_index >= 0 {
-        ground = mirror_hit(tour, maps, filtering, component(records, ground_index), up);
+        ground = mirror_hit(tour, records, maps, filtering, look, ground_index, up);
     }
     for (var i = 0; i < count; i++) {
         let index = i32(textureLoad(records, vec2(8 + i / 4, row), 0)[i % 4]);
-        let hit = mirror_hit(tour, maps, filtering, component(records, index), up);
+        let hit = mirror_hit(tour, records, maps, filtering, look, index, up);
         if hit.distance < 0.0 {
             continue;
         }
@@ -89,13 +108,16 @@ fn mirrored(
         light = behind(light, ground.texel);
     }
     let last = component(records, 0);
-    var at = see_far(tour, mirror(up.direction));
+    var away = mirror(up.direction);
+    var seen = see_far(tour, away);
     if last.kind != INFINITE {
-        let distance = meet_plane(last, up);
-        if distance > 0.0 && distance < 1e9 {
-            at = see(tour, mirror(up.origin + distance * up.direction));
+        let met = meet(records, row, 0, last, up);
+        if met.distance > 0.0 && met.distance < 1e9 {
+            seen = see(tour, mirror(met.rest));
+            away = mirror(met.point) - look.eye;
         }
     }
-    light = behind(light, vec4(sample_map(maps, filtering, last, at).rgb, 1.0));
+    let level = level_of(tour, records, row, away, seen.z, last.atlas.z);
+    light = behind(light, vec4(sample_map(maps, filtering, last, seen.xy, level).rgb, 1.0));
     return light.color;
 }

@@ -1,0 +1,166 @@
+//! Layers with their mip levels, for views that show them smaller than the picture did.
+//!
+//! A texel of level k stands for 2^k × 2^k texels of the layer, counted from its first one; the last may stand for fewer.
+//! Colors are averaged premultiplied and in linear light, then stored straight (notes §5.6): nothing that is transparent
+//! tints its neighbors, and what is transparent altogether keeps the mean of the colors that were bled there.
+
+use glam::{DVec2, IVec2, UVec2, Vec4};
+use rayon::prelude::*;
+
+use super::grid::snap;
+use super::{Grid, Layer};
+use crate::picture::PicturePoint;
+use crate::picture::color::linear_from_srgb;
+use crate::picture::color::srgb_from_linear;
+
+/// How many times a layer is halved.
+pub const MIP_LEVELS: usize = 4;
+
+/// A layer and what remains of it when it is halved [`MIP_LEVELS`] times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mipmapped {
+    /// The layer itself, in the picture's pixels.
+    pub layer: Layer,
+    /// Levels 1 to [`MIP_LEVELS`]; cells are counted from the layer's first, and origins mean nothing.
+    pub coarser: Vec<Layer>,
+}
+
+/// Size of level `level` of a layer of a size: halves are rounded up.
+#[must_use]
+pub fn mip_size(size: UVec2, level: usize) -> UVec2 {
+    UVec2::new(size.x.div_ceil(1 << level), size.y.div_ceil(1 << level))
+}
+
+/// The level to read where a screen pixel covers `texels` texels along a side. Up to 1.15 it is the layer itself, from 2
+/// on the level whose texels are as large; between, the two are mixed. Twin of `mip_level` in `tour.wgsl`.
+#[must_use]
+pub fn mip_level(texels: f64) -> f32 {
+    let octaves = texels.log2() as f32;
+    let level = if octaves >= 1.0 { octaves } else { 1.25 * (octaves - 0.2) };
+    level.clamp(0.0, MIP_LEVELS as f32)
+}
+
+impl From<Layer> for Mipmapped {
+    fn from(layer: Layer) -> Self {
+        let mut coarser: Vec<Layer> = Vec::with_capacity(MIP_LEVELS);
+        for _ in 0..MIP_LEVELS {
+            let next = halved(coarser.last().unwrap_or(&layer));
+            coarser.push(next);
+        }
+        Self { layer, coarser }
+    }
+}
+
+impl Mipmapped {
+    /// Level `level`, 0 being the layer itself.
+    ///
+    /// # Panics
+    ///
+    /// For levels above [`MIP_LEVELS`].
+    #[must_use]
+    pub fn level(&self, level: usize) -> &Layer {
+        if level == 0 { &self.layer } else { &self.coarser[level - 1] }
+    }
+
+    /// Linear-light color and straight coverage at a point of the picture, read at a level from [`mip_level`]. Twin of
+    /// `sharp` in `tour.wgsl`.
+    #[must_use]
+    pub fn sample(&self, point: PicturePoint, level: f32) -> [f32; 4] {
+        if level <= 0.0 {
+            return self.layer.sample(point);
+        }
+        let whole = (level.floor() as usize).min(MIP_LEVELS - 1);
+        // Half a texel of the coarsest level that is read stays between the place and the border.
+        let coarsest = (whole + 1).min(level.ceil() as usize);
+        let margin = DVec2::splat(0.5 * f64::from(1_u32 << coarsest));
+        let limit = (mip_size(self.layer.size, coarsest) << coarsest as u32).as_dvec2();
+        let at = (snap(point).0 - self.layer.origin.as_dvec2()).clamp(margin, limit - margin);
+        let finer = match whole {
+            0 => Vec4::from(self.layer.sample(point)),
+            _ => bilinear(self.level(whole), at / f64::from(1_u32 << whole)),
+        };
+        let coarser = bilinear(self.level(whole + 1), at / f64::from(2_u32 << whole));
+        finer.lerp(coarser, level - whole as f32).to_array()
+    }
+}
+
+/// The mean of the four texels around a place; the border is prolonged.
+fn bilinear(layer: &Layer, at: DVec2) -> Vec4 {
+    let corner = (at - 0.5).floor();
+    let part = (at - 0.5 - corner).as_vec2();
+    let corner = corner.as_ivec2();
+    let texel = |x: i32, y: i32| {
+        let cell = (corner + IVec2::new(x, y)).clamp(IVec2::ZERO, layer.size.as_ivec2() - 1);
+        linear(layer.cells[cell.y as usize * layer.size.x as usize + cell.x as usize])
+    };
+    texel(0, 0).lerp(texel(1, 0), part.x).lerp(texel(0, 1).lerp(texel(1, 1), part.x), part.y)
+}
+
+fn linear([r, g, b, a]: [u8; 4]) -> Vec4 {
+    Vec4::new(linear_from_srgb(r), linear_from_srgb(g), linear_from_srgb(b), f32::from(a) / 255.0)
+}
+
+/// A layer of half the size.
+fn halved(layer: &Layer) -> Layer {
+    let size = mip_size(layer.size, 1);
+    let (width, from) = (size.x as usize, layer.size);
+    let mut cells = vec![[0; 4]; width * size.y as usize];
+    cells.par_chunks_mut(width.max(1)).with_min_len(16).enumerate().for_each(|(row, cells)| {
+        for (column, cell) in cells.iter_mut().enumerate() {
+            let (mut light, mut plain, mut alpha, mut count) = (Vec4::ZERO, Vec4::ZERO, 0_u32, 0_u32);
+            for y in [2 * row, 2 * row + 1].into_iter().filter(|&y| y < from.y as usize) {
+                for x in [2 * column, 2 * column + 1].into_iter().filter(|&x| x < from.x as usize) {
+                    let codes = layer.cells[y * from.x as usize + x];
+                    let texel = linear(codes);
+                    light += texel * f32::from(codes[3]);
+                    plain += texel;
+                    alpha += u32::from(codes[3]);
+                    count += 1;
+                }
+            }
+            let color = if alpha > 0 { light / alpha as f32 } else { plain / count.max(1) as f32 };
+            let [r, g, b] = [color.x, color.y, color.z].map(srgb_from_linear);
+            *cell = [r, g, b, ((2 * alpha + count) / (2 * count).max(1)) as u8];
+        }
+    });
+    Grid { origin: layer.origin, size, cells }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_half_transparent_edge_gets_no_dark_fringe() {
+        // Opaque red beside transparent green: the mean is red at half coverage, not olive.
+        let layer = Layer::from_fn(IVec2::ZERO, UVec2::new(4, 2), |pixel| {
+            if pixel.x % 2 == 0 { [255, 0, 0, 255] } else { [0, 255, 0, 0] }
+        });
+        let map = Mipmapped::from(layer);
+        assert_eq!(map.coarser[0].cells, [[255, 0, 0, 128]; 2]);
+        assert_eq!(map.coarser.len(), MIP_LEVELS);
+    }
+
+    #[test]
+    fn halving_keeps_the_light() {
+        // Black and white average to half of the light (code 188), not to half of the code.
+        let layer = Layer::from_fn(IVec2::ZERO, UVec2::new(5, 3), |pixel| {
+            let code = if (pixel.x + pixel.y) % 2 == 0 { 255 } else { 0 };
+            [code, code, code, 255]
+        });
+        let map = Mipmapped::from(layer);
+        assert_eq!(map.coarser[0].size, UVec2::new(3, 2));
+        assert_eq!(map.coarser[0].cells[0], [188, 188, 188, 255]);
+        let [r, _, _, a] = map.sample(PicturePoint::new(2.0, 1.0), 1.0);
+        assert!((r - 0.5).abs() < 0.01 && a == 1.0, "{r} of the light, coverage {a}");
+    }
+
+    #[test]
+    fn the_first_view_reads_the_layer_itself() {
+        assert_eq!(mip_level(1.0), 0.0);
+        assert_eq!(mip_level(0.3), 0.0);
+        assert_eq!(mip_level(0.0), 0.0);
+        assert!((mip_level(2.0) - 1.0).abs() < 1e-6 && (mip_level(1.99) - 0.99).abs() < 0.02);
+        assert_eq!(mip_level(1e9), MIP_LEVELS as f32);
+    }
+}
