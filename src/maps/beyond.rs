@@ -1,7 +1,7 @@
 //! Beyond the picture's border: maps reach a bit further, so that a camera may move without seeing where they end.
 //!
-//! Coverage outside is folded in from inside (mirrored at the border); colors are filled like any hole, and counted as
-//! missing.
+//! Coverage outside is folded in from inside (mirrored at the border, the lowest row prolonged: what lies at one's feet goes
+//! on); colors are filled like any hole, and counted as missing.
 
 use glam::{IVec2, UVec2};
 
@@ -17,14 +17,14 @@ pub(super) fn frame(size: UVec2) -> (IVec2, IVec2) {
     (low, IVec2::new(size.x as i32 - low.x, size.y as i32 + share(BELOW, size.y)))
 }
 
-/// The pixel of the picture that stands for one outside: mirrored at the border.
+/// The pixel of the picture that stands for one outside: mirrored at the border, below the picture its lowest row.
 pub(super) fn folded(pixel: IVec2, size: UVec2) -> IVec2 {
     let fold = |x: i32, size: u32| {
         let (size, period) = (size as i32, 2 * size as i32);
         let x = x.rem_euclid(period);
         if x < size { x } else { period - 1 - x }
     };
-    IVec2::new(fold(pixel.x, size.x), fold(pixel.y, size.y))
+    IVec2::new(fold(pixel.x, size.x), fold(pixel.y.min(size.y as i32 - 1), size.y))
 }
 
 #[cfg(test)]
@@ -36,6 +36,6 @@ mod tests {
         let size = UVec2::new(10, 6);
         assert_eq!(folded(IVec2::new(3, 5), size), IVec2::new(3, 5));
         assert_eq!(folded(IVec2::new(-1, -3), size), IVec2::new(0, 2));
-        assert_eq!(folded(IVec2::new(10, 8), size), IVec2::new(9, 3));
+        assert_eq!(folded(IVec2::new(10, 8), size), IVec2::new(9, 5));
     }
 }

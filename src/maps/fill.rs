@@ -136,6 +136,45 @@ fn expand<const C: usize>(coarse: &Level<C>, width: usize, values: &mut [[f32; C
     });
 }
 
+/// The mean of the square of cells up to `reach` around each, which ends at the border.
+pub(super) fn box_mean(width: usize, values: &[[f32; 3]], reach: usize) -> Vec<[f32; 3]> {
+    let height = values.len() / width.max(1);
+    let mut rows = vec![[0.0; 3]; values.len()];
+    rows.par_chunks_mut(width.max(1)).zip(values.par_chunks(width.max(1))).for_each(|(means, row)| {
+        running_mean(reach, width, |x| row[x], |x, mean| means[x] = mean);
+    });
+    // Columns become rows of a transposed grid, so that they too are made on all cores.
+    let mut columns = vec![[0.0; 3]; values.len()];
+    columns.par_chunks_mut(height.max(1)).enumerate().for_each(|(x, means)| {
+        running_mean(reach, height, |y| rows[y * width + x], |y, mean| means[y] = mean);
+    });
+    (0..values.len()).into_par_iter().map(|cell| columns[cell % width * height + cell / width]).collect()
+}
+
+/// Means over up to `reach` places to both sides, by a sum in f64 that runs along.
+fn running_mean(
+    reach: usize,
+    count: usize,
+    value: impl Fn(usize) -> [f32; 3],
+    mut found: impl FnMut(usize, [f32; 3]),
+) {
+    let mut sum = [0.0_f64; 3];
+    let add = |place: usize, sign: f64, sum: &mut [f64; 3]| {
+        sum.iter_mut().zip(value(place)).for_each(|(sum, value)| *sum += sign * f64::from(value));
+    };
+    (0..reach.min(count)).for_each(|place| add(place, 1.0, &mut sum));
+    for place in 0..count {
+        if place + reach < count {
+            add(place + reach, 1.0, &mut sum);
+        }
+        if place > reach {
+            add(place - reach - 1, -1.0, &mut sum);
+        }
+        let number = (place + reach + 1).min(count) - place.saturating_sub(reach);
+        found(place, sum.map(|sum| (sum / number as f64) as f32));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -185,5 +224,24 @@ mod tests {
         let mut values = vec![[3.0, 4.0]; 12];
         push_pull(4, &mut values, &[0.0; 12]);
         assert!(values.iter().all(|v| *v == [0.0, 0.0]));
+    }
+
+    #[test]
+    fn a_box_mean_is_the_mean_of_the_cells_around() {
+        let (width, height) = (7, 5);
+        let values: Vec<[f32; 3]> =
+            (0..width * height).map(|i| [(i * i % 11) as f32, i as f32, 1.0]).collect();
+        let means = box_mean(width, &values, 2);
+        for y in 0..height {
+            for x in 0..width {
+                let around: Vec<f32> = (y.saturating_sub(2)..(y + 3).min(height))
+                    .flat_map(|y| (x.saturating_sub(2)..(x + 3).min(width)).map(move |x| (x, y)))
+                    .map(|(x, y)| values[y * width + x][0])
+                    .collect();
+                let expected = around.iter().sum::<f32>() / around.len() as f32;
+                let [first, _, one] = means[y * width + x];
+                assert!((first - expected).abs() < 1e-5 && one == 1.0, "({x}, {y}): {first} for {expected}");
+            }
+        }
     }
 }

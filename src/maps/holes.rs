@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::beyond::frame;
 use super::coverage::{ALONE, Coverage, is_above_contact};
 use super::distance::distances;
-use super::fill::push_pull;
+use super::fill::{box_mean, push_pull};
 use super::inpaint::{Cell, Options, inpaint};
 use super::reflection::{backdrop_from_water, linear, tolerance};
 use super::texture::layer_alpha;
@@ -30,8 +30,10 @@ const RIM_INSIDE: [f32; 2] = [0.003, 0.0095];
 /// The same beyond the picture's border, where what is made up is least like the truth.
 const RIM_BEYOND: [f32; 2] = [0.003, 0.013];
 
-/// Share of the patches beyond the border; the rest is smooth: a made-up edge should not catch the eye.
-const CONTRAST_BEYOND: f32 = 0.6;
+/// What is left beyond the border of the patches' differences from the mean around them, which reaches so far (pixels per
+/// pixel of picture width): a made-up edge should not catch the eye.
+const CONTRAST_BEYOND: f32 = 0.4;
+const MEAN_REACH: f32 = 0.012;
 
 /// The water is asked for what is hidden where it agrees with so much of what is seen around.
 const AGREEING: f32 = 0.5;
@@ -127,18 +129,26 @@ pub(super) fn patch(
     }
     let rims = [RIM_INSIDE, RIM_BEYOND].map(|rim| rim.map(|share| share * picture.x as f32));
     let from_known = distances(width, colors.size.y as usize, |cell| cells[cell] == Cell::Source);
-    let (origin, smooth) = (colors.origin, &mut colors.cells);
+    let origin = colors.origin;
+    let out = |cell: usize| {
+        let pixel = origin + IVec2::new((cell % width) as i32, (cell / width) as i32);
+        (-pixel).max(pixel + 1 - end).max_element().max(0) as f32
+    };
+    let smooth = &mut colors.cells;
     smooth.par_iter_mut().zip(patched).zip(from_known).enumerate().for_each(
         |(cell, ((color, patch), far))| {
-            let pixel = origin + IVec2::new((cell % width) as i32, (cell / width) as i32);
-            let inside = pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(end).all();
-            let out = (-pixel).max(pixel + 1 - end).max_element().max(0) as f32;
-            let most = 1.0 - (1.0 - CONTRAST_BEYOND) * (out / rims[1][1]).min(1.0);
-            let [begin, whole] = if inside { rims[0] } else { rims[1] };
-            let share = ((far - begin) / (whole - begin)).clamp(0.0, most);
+            let [begin, whole] = if out(cell) == 0.0 { rims[0] } else { rims[1] };
+            let share = ((far - begin) / (whole - begin)).clamp(0.0, 1.0);
             *color = std::array::from_fn(|c| color[c] + share * (patch[c] - color[c]));
         },
     );
+    let mean = box_mean(width, smooth, (MEAN_REACH * picture.x as f32).round() as usize);
+    smooth.par_iter_mut().zip(mean).enumerate().for_each(|(cell, (color, mean))| {
+        if cells[cell] == Cell::Hole {
+            let contrast = 1.0 - (1.0 - CONTRAST_BEYOND) * (out(cell) / rims[1][1]).min(1.0);
+            *color = std::array::from_fn(|c| mean[c] + contrast * (color[c] - mean[c]));
+        }
+    });
     true
 }
 

@@ -17,6 +17,8 @@ pub(super) struct Mirrored {
     pub direct: PicturePoint,
     /// Sine of the grazing angle at the water, 0–1.
     pub grazing: f32,
+    /// Which share of the way from the camera to what is mirrored lies behind the water, 0–1.
+    pub behind: f32,
 }
 
 /// What `surface` would show in the water at `pixel`; `None` where no water is seen or the mirrored ray passes it by.
@@ -43,7 +45,8 @@ pub(super) fn mirrored(scene: &TourScene, surface: &Surface, pixel: PicturePoint
             (f64::INFINITY, scene.camera.intrinsics.project_view(in_view)?)
         }
     };
-    Some(Mirrored { parameter, direct, grazing })
+    let behind = (1.0 - to_water / parameter).clamp(0.0, 1.0) as f32;
+    Some(Mirrored { parameter, direct, grazing, behind })
 }
 
 /// Where the point that `surface` shows directly at `pixel` is mirrored in the picture's water.

@@ -19,6 +19,7 @@ mod mipmaps;
 mod mirror;
 mod paper;
 mod reflection;
+mod softness;
 mod texture;
 mod tint;
 mod visible;
@@ -138,7 +139,7 @@ impl Maps {
         step(0.1, "what the water mirrors")?;
         let mut zones = zones::zones(scene, &coverage);
         let owner = bodies::take_in_bodies(scene, picture, &mut coverage, &mut zones);
-        let tint = reflection::fit_tint(scene, picture, &coverage, &owner);
+        let tint = reflection::fit_water(scene, picture, &coverage, &owner);
         let count = scene.components.len();
         let input = HoleInput {
             scene,

@@ -14,6 +14,7 @@ use super::fill::push_pull;
 use super::holes::patch;
 use super::inpaint::Cell;
 use super::mirror::{mirrored, reflection_of};
+use super::softness::{blur_px, fit_slope, softened};
 use super::tint::{Tint, TintSample};
 use super::zones::Zones;
 use super::{Fill, Grid, Layer, MapOptions, Method, lift, paper};
@@ -31,11 +32,14 @@ const TOLERANCE_CODES: [f32; 2] = [10.0, 20.0];
 /// Shares of agreeing texels around between which the prediction's part goes from none to all.
 const TRUST: [f32; 2] = [0.3, 0.7];
 
+/// Predictions trusted less than this are replaced by what the water shows elsewhere.
+const LEAST_TRUST: f32 = 0.5;
+
 /// How far up or down a mirror image may lie from where its plane says, pixels per pixel of picture width.
 const SEARCH_REACH: f32 = 0.006;
 
 /// From this distance to what is seen on, predictions are taken whole, pixels per pixel of picture width.
-const LONELY: f32 = 0.02;
+const LONELY: f32 = 0.06;
 
 /// Where a texel of a reflection map came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,8 +52,8 @@ pub enum Origin {
     Missing,
 }
 
-/// Fits the water on what the picture shows twice.
-pub(super) fn fit_tint(scene: &TourScene, picture: &Picture, coverage: &Coverage, owner: &Grid<u8>) -> Tint {
+/// Fits the water, and then its ripples, on what the picture shows twice.
+pub(super) fn fit_water(scene: &TourScene, picture: &Picture, coverage: &Coverage, owner: &Grid<u8>) -> Tint {
     let size = picture.size();
     // A sample every few pixels says as much as all of them.
     let step = (f64::from(size.x) * f64::from(size.y) / 60_000.0).sqrt().max(1.0) as i32;
@@ -72,7 +76,9 @@ pub(super) fn fit_tint(scene: &TourScene, picture: &Picture, coverage: &Coverage
             }
         }
     }
-    Tint::fit(&samples)
+    let mut tint = Tint::fit(&samples);
+    tint.slope = fit_slope(scene, picture, coverage, owner, &tint);
+    tint
 }
 
 /// A picture pixel in linear light.
@@ -162,7 +168,8 @@ pub(super) fn reflection_map(
             Some(found) => {
                 let at = found.direct.0.floor().as_ivec2();
                 let sourced = coverage.is_pure(index, at);
-                (tint.mirrored(direct.sample(found.direct), found.grazing), sourced)
+                let blur = blur_px(scene, tint.slope, found.behind);
+                (tint.mirrored(softened(direct, found.direct, blur), found.grazing), sourced)
             }
             None => ([0.0; 3], false),
         };
@@ -175,8 +182,9 @@ pub(super) fn reflection_map(
     });
     let unseen = match input.options.method {
         Method::Ours => {
-            let mut colors = Grid { origin, size: extent, cells: unseen_colors(input, &texels) };
-            prolong(input, surface, &texels, &mut colors, index, progress)?;
+            let (cells, trust) = unseen_colors(input, &texels);
+            let mut colors = Grid { origin, size: extent, cells };
+            make_up(input, surface, &texels, &trust, &mut colors, index, progress)?;
             colors.cells
         }
         Method::Paper => paper::unseen_colors(input, &texels, progress)?,
@@ -198,11 +206,13 @@ pub(super) fn reflection_map(
     Some((layer, texels.cells.into_iter().map(|(_, origin)| origin).collect()))
 }
 
-/// Fills the texels that mirror what lies even above the component's texture map: nothing predicts them.
-fn prolong(
+/// Fills the texels that nothing predicts, from what the water shows elsewhere: those that mirror what lies even above the
+/// component's texture map, and those near which predictions fail.
+fn make_up(
     input: &ReflectionInput,
     surface: &Surface,
     texels: &Grid<([f32; 3], Origin)>,
+    trust: &[f32],
     colors: &mut Grid<[f32; 3]>,
     index: usize,
     progress: &dyn Fn(f32) -> bool,
@@ -215,7 +225,11 @@ fn prolong(
             let pixel = texels.pixel(cell);
             let point = PicturePoint::pixel_center(pixel.x.into(), pixel.y.into());
             let beyond = mirrored(scene, surface, point).is_some_and(|found| found.direct.y() < top);
-            if beyond && texels.cells[cell].1 != Origin::Seen { Cell::Hole } else { Cell::Source }
+            if (beyond || trust[cell] < LEAST_TRUST) && texels.cells[cell].1 != Origin::Seen {
+                Cell::Hole
+            } else {
+                Cell::Source
+            }
         })
         .collect();
     if !cells.contains(&Cell::Hole) {
@@ -232,7 +246,8 @@ fn prolong(
 
 /// Colors for the texels that the water does not show, linear light: the prediction plus what it misses on the seen
 /// texels around; where it fails on those altogether (their distance is wrong, something swims there), their own colors.
-fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Origin)>) -> Vec<[f32; 3]> {
+/// And how far each prediction is trusted, 0–1.
+fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Origin)>) -> (Vec<[f32; 3]>, Vec<f32>) {
     let ReflectionInput { picture, tint, by_body, .. } = input;
     let width = texels.size.x as usize;
     let tolerance = tolerance(tint);
@@ -280,17 +295,21 @@ fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Origin)>) -> 
     push_pull(width, &mut around, &seen);
     let far = LONELY * picture.size().x as f32;
     let from_seen = distances(width, texels.size.y as usize, |cell| all[cell] == 1.0);
-    let blend = |cell: usize| -> [f32; 3] {
-        let (predicted, _) = texels.cells[cell];
-        let trust = ((agreement[cell][0] - TRUST[0]) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
-        // Far from all that is seen even a poor prediction says more than one color.
-        let trust = trust.max((2.0 * from_seen[cell] / far - 1.0).min(1.0));
-        std::array::from_fn(|c| {
-            let made = (predicted[c] + misses[cell][c]).clamp(0.0, 1.0);
-            trust * made + (1.0 - trust) * around[cell][c]
+    (0..texels.cells.len())
+        .into_par_iter()
+        .map(|cell| {
+            let (predicted, _) = texels.cells[cell];
+            let trust = ((agreement[cell][0] - TRUST[0]) / (TRUST[1] - TRUST[0])).clamp(0.0, 1.0);
+            // Far from all that is seen a prediction that fails there may still be right.
+            let lonely = if tint.explains() { (2.0 * from_seen[cell] / far - 1.0).min(1.0) } else { 0.0 };
+            let trust = trust.max(lonely);
+            let color = std::array::from_fn(|c| {
+                let made = (predicted[c] + misses[cell][c]).clamp(0.0, 1.0);
+                trust * made + (1.0 - trust) * around[cell][c]
+            });
+            (color, trust)
         })
-    };
-    (0..texels.cells.len()).into_par_iter().map(blend).collect()
+        .unzip()
 }
 
 /// Raises the nearest mirror image at every water pixel until the layers over each other show the picture.

@@ -1,8 +1,9 @@
 //! What the water does to what it mirrors, fitted on the texels where the picture shows both.
 //!
 //! Two models compete, and the one that explains the picture better is kept. Physical: in linear light a gain times
-//! Fresnel plus the water's own color (notes §5.4). Painted: gain and offset in display codes, without Fresnel, as
-//! paintings and retouched pictures are made.
+//! reflectance plus the water's own color (notes §5.4), the reflectance following Fresnel with a strength between 0 (it
+//! is the same at all angles) and 1, as the picture supports. Painted: gain and offset in display codes, as paintings
+//! and retouched pictures are made.
 
 use crate::picture::color::linear_from_srgb_f32;
 use crate::picture::color::srgb_from_linear_f32;
@@ -12,6 +13,15 @@ const F0: f32 = 0.02;
 
 /// Fewer samples than this say nothing; the water is then taken as a perfect mirror.
 const MIN_SAMPLES: usize = 200;
+
+/// Strengths of Fresnel's law that are tried.
+const STRENGTHS: [f32; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// Fresnel's law must lower the error at least to this share of what is left without it.
+const SUPPORT: f32 = 0.97;
+
+/// Limits of the ratio of two reflectances (notes §8.2): beyond, the fit is not to be trusted.
+const RATIO: [f32; 2] = [0.5, 2.0];
 
 /// A texel that the picture shows twice: directly and in the water.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +41,12 @@ pub struct Tint {
     /// Per channel: gain and offset (of the water's own color) in the model's space.
     gain: [f32; 3],
     offset: [f32; 3],
+    /// How closely the reflectance follows Fresnel's law as the angle changes, 0–1.
+    pub strength: f32,
+    /// Reflectance at the middle of the samples.
+    middle: f32,
+    /// Root mean square slope of the ripples that smear the picture's mirror images, 0 for still water.
+    pub slope: f32,
     /// Median error of the fit in sRGB codes, all channels.
     pub error_codes: f32,
     /// Median distance of the mirrored colors from their own median, in sRGB codes: what a constant would miss.
@@ -50,9 +66,17 @@ pub fn fresnel(grazing: f32) -> f32 {
 }
 
 impl Tint {
-    /// A perfect mirror.
-    pub const MIRROR: Self =
-        Self { model: Model::Painted, gain: [1.0; 3], offset: [0.0; 3], error_codes: 0.0, spread_codes: 0.0 };
+    /// A perfect mirror, and still.
+    pub const MIRROR: Self = Self {
+        model: Model::Painted,
+        gain: [1.0; 3],
+        offset: [0.0; 3],
+        strength: 0.0,
+        middle: 1.0,
+        slope: 0.0,
+        error_codes: 0.0,
+        spread_codes: 0.0,
+    };
 
     /// Fits both models robustly and keeps the better; [`Self::MIRROR`] when there are too few samples.
     #[must_use]
@@ -60,8 +84,14 @@ impl Tint {
         if samples.len() < MIN_SAMPLES {
             return Self::MIRROR;
         }
-        let physical = fit_model(Model::Physical, samples);
-        let painted = fit_model(Model::Painted, samples);
+        let constant = fit_model(Model::Physical, 0.0, samples);
+        let physical = STRENGTHS
+            .into_iter()
+            .map(|strength| fit_model(Model::Physical, strength, samples))
+            .filter(|fit| fit.error_codes < SUPPORT * constant.error_codes)
+            .min_by(|a, b| a.error_codes.total_cmp(&b.error_codes))
+            .unwrap_or(constant);
+        let painted = fit_model(Model::Painted, 0.0, samples);
         // The physical model is the one to trust away from the samples, so the other must be clearly better.
         if painted.error_codes < 0.8 * physical.error_codes { painted } else { physical }
     }
@@ -71,7 +101,7 @@ impl Tint {
     pub fn mirrored(&self, direct: [f32; 3], grazing: f32) -> [f32; 3] {
         std::array::from_fn(|c| match self.model {
             Model::Physical => {
-                let f = fresnel(grazing);
+                let f = self.reflectance(grazing);
                 (self.gain[c] * f * direct[c] + self.offset[c] * (1.0 - f)).clamp(0.0, 1.0)
             }
             Model::Painted => {
@@ -81,18 +111,47 @@ impl Tint {
         })
     }
 
+    /// The water's reflectance at a grazing angle of this sine, as far as the picture supports that it changes.
+    fn reflectance(&self, grazing: f32) -> f32 {
+        self.middle * (fresnel(grazing) / self.middle).powf(self.strength)
+    }
+
+    /// The water's own color where it mirrors nothing, linear light; black where no angle changes anything.
+    #[must_use]
+    pub fn own_color(&self) -> [f32; 3] {
+        if self.strength > 0.0 { self.offset.map(|x| x.clamp(0.0, 1.0)) } else { [0.0; 3] }
+    }
+
+    /// What the water shows at one angle where it showed `color` at another (sines of the grazing angles; notes §8.2).
+    /// Twin of `at_angle` in `water.wgsl`.
+    #[must_use]
+    pub fn at_angle(&self, color: [f32; 3], was: f32, is: f32) -> [f32; 3] {
+        if self.strength <= 0.0 {
+            return color;
+        }
+        let ratio = (fresnel(is) / fresnel(was)).powf(self.strength).clamp(RATIO[0], RATIO[1]);
+        let own = self.own_color();
+        std::array::from_fn(|c| (own[c] + ratio * (color[c] - own[c])).max(0.0))
+    }
+
+    /// Whether the fit explains most of what the water shows.
+    #[must_use]
+    pub fn explains(&self) -> bool {
+        self.error_codes <= 0.4 * self.spread_codes
+    }
+
     /// The direct color for a mirrored one, the inverse of [`Self::mirrored`]; `None` where the water swallows most of
     /// it, or when the fit explains too little of what the water shows.
     #[must_use]
     pub fn direct(&self, mirrored: [f32; 3], grazing: f32) -> Option<[f32; 3]> {
-        if self.error_codes > 0.4 * self.spread_codes {
+        if !self.explains() {
             return None;
         }
         let mut direct = [0.0; 3];
         for c in 0..3 {
             let (gain, offset) = match self.model {
                 Model::Physical => {
-                    let f = fresnel(grazing);
+                    let f = self.reflectance(grazing);
                     (self.gain[c] * f, self.offset[c] * (1.0 - f))
                 }
                 Model::Painted => (self.gain[c], self.offset[c]),
@@ -112,15 +171,16 @@ impl Tint {
     }
 }
 
-fn fit_model(model: Model, samples: &[TintSample]) -> Tint {
-    let mut tint = Tint { model, ..Tint::MIRROR };
+fn fit_model(model: Model, strength: f32, samples: &[TintSample]) -> Tint {
+    let middle = median(&mut samples.iter().map(|sample| fresnel(sample.grazing)).collect::<Vec<_>>());
+    let mut tint = Tint { model, strength, middle, ..Tint::MIRROR };
     for c in 0..3 {
         // mirrored = gain · a + offset · b
         let rows: Vec<[f32; 3]> = samples
             .iter()
             .map(|sample| match model {
                 Model::Physical => {
-                    let f = fresnel(sample.grazing);
+                    let f = tint.reflectance(sample.grazing);
                     [f * sample.direct[c], 1.0 - f, sample.mirrored[c]]
                 }
                 Model::Painted => {
@@ -222,6 +282,10 @@ mod tests {
         for c in 0..3 {
             assert!((said[c] - truth[c]).abs() < 0.003, "channel {c}: {} instead of {}", said[c], truth[c]);
         }
+        assert_eq!(tint.strength, 1.0);
+        let steeper = tint.at_angle(truth, 0.1, 0.2);
+        let expected = water([0.5, 0.3, 0.7], 0.2);
+        assert!((steeper[2] - expected[2]).abs() < 0.005, "{} instead of {}", steeper[2], expected[2]);
         let back = tint.direct(truth, 0.1).unwrap();
         assert!((back[1] - 0.3).abs() < 0.01, "{} instead of 0.3", back[1]);
     }
@@ -235,6 +299,14 @@ mod tests {
         for c in 0..3 {
             assert!((said[c] - truth[c]).abs() < 0.003, "channel {c}: {} instead of {}", said[c], truth[c]);
         }
+    }
+
+    #[test]
+    fn water_that_knows_no_angle_gets_none() {
+        let water = |d: [f32; 3], _: f32| d.map(|x| 0.6 * x + 0.02);
+        let tint = Tint::fit(&samples(water));
+        assert_eq!(tint.strength, 0.0);
+        assert_eq!(tint.at_angle([0.4; 3], 0.05, 0.3), [0.4; 3]);
     }
 
     #[test]

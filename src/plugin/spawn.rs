@@ -104,7 +104,7 @@ pub(super) fn show(
         let map = atlas::trimmed(&tour.maps.components[index].texture, picture, largest);
         let infinite = component.surface == Surface::Infinity;
         let (texels, scale) = texels(&map, largest);
-        let uniform = TourUniform::new(scene, index, Some((&map.layer, scale)));
+        let uniform = TourUniform::new(scene, &tour.maps.tint, index, Some((&map.layer, scale)));
         let map = assets.images.add(image_of(texels));
         textures.push(map.clone());
         let material = TourMaterial {
@@ -124,7 +124,7 @@ pub(super) fn show(
     }
     let atlas = scene.water.then(|| assets.images.add(image_of(atlas.texture)));
     if let Some(map) = &atlas {
-        let uniform = TourUniform::new(scene, 0, None);
+        let uniform = TourUniform::new(scene, &tour.maps.tint, 0, None);
         let material = TourMaterial {
             tour: uniform,
             records: image.clone(),

@@ -162,8 +162,10 @@ impl<'a> Reference<'a> {
             surface => surface.meet(up).map(|t| mirror(up.at(t))),
         };
         let [r, g, b, _] = match met {
-            Some(point) => self.read(last, look, point, point),
-            None => self.read_far(last, look, mirror(up.direction)),
+            Some(point) => self.read_mirrored(last, look, point, point),
+            None => {
+                self.at_angle(self.read_far(last, look, mirror(up.direction)), up.direction, up.direction)
+            }
         };
         light.add([r, g, b, 1.0]);
         light.color
@@ -175,7 +177,21 @@ impl<'a> Reference<'a> {
         let component = &self.scene.components[index];
         debug_assert!(component.role != Role::LastLayer, "the last layer is met by all rays");
         let met = look.arrangement.meet(self.scene, index, up)?;
-        (met.point.y >= 0.0).then(|| (met.t, self.read(map, look, mirror(met.point), mirror(met.rest.0))))
+        (met.point.y >= 0.0)
+            .then(|| (met.t, self.read_mirrored(map, look, mirror(met.point), mirror(met.rest.0))))
+    }
+
+    /// A reflection map at the mirror image `rest` that is seen at `point`, for the angle at which it is seen.
+    fn read_mirrored(&self, map: &Mipmapped, look: &Look, point: DVec3, rest: DVec3) -> [f32; 4] {
+        let was = self.scene.camera.pose.position - rest;
+        self.at_angle(self.read(map, look, point, rest), was, look.position - point)
+    }
+
+    /// A texel of the water, from which `was` goes up to the picture's camera, for a camera to which `is` goes.
+    fn at_angle(&self, [r, g, b, alpha]: [f32; 4], was: DVec3, is: DVec3) -> [f32; 4] {
+        let [was, is] = [was, is].map(|up| (up.y / up.length()) as f32);
+        let [r, g, b] = self.maps.tint.at_angle([r, g, b], was, is);
+        [r, g, b, alpha]
     }
 }
 

@@ -13,5 +13,6 @@ mod layers;
 mod plugin;
 mod program;
 mod recover_scene;
+mod rippled_picture;
 mod tour_assets;
 mod tour_files;

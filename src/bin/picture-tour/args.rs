@@ -46,6 +46,9 @@ pub(crate) enum Command {
         /// Write the report for machines, as JSON
         #[arg(long)]
         json: bool,
+        /// Also draw a sheet to judge the tour by: the picture, what is behind everything, four other views
+        #[arg(long, value_name = "FILE.png")]
+        sheet: Option<PathBuf>,
     },
     /// Write a tour file to start from, with comments that tell what to fill in
     New(NewArguments),

@@ -1,4 +1,4 @@
-//! `check`: every problem of a tour, or else how well its picture is solved.
+//! `check`: every problem of a tour, or else how well its picture is solved, and a sheet of views.
 
 use std::io;
 use std::io::Write;
@@ -15,12 +15,14 @@ use crate::report::Component;
 use crate::report::Findings;
 use crate::report::Parameter;
 use crate::report::Report;
+use crate::report::Water;
+use crate::sheet;
 use crate::table::Table;
 
 /// Checks a tour, or the demo.
-pub(crate) fn run(tour: Option<&Path>, json: bool) -> Result<ExitCode, Failure> {
+pub(crate) fn run(tour: Option<&Path>, json: bool, sheet: Option<&Path>) -> Result<ExitCode, Failure> {
     let mut stdout = io::stdout().lock();
-    let report = match report(tour) {
+    let report = match report(tour, sheet) {
         Err(Failure::Problems(problems)) if json => {
             let name = tour.map_or_else(String::new, |tour| tour.display().to_string());
             Report::of_problems(name, &problems)
@@ -38,9 +40,12 @@ pub(crate) fn run(tour: Option<&Path>, json: bool) -> Result<ExitCode, Failure> 
     Ok(ExitCode::from(u8::from(!report.problems.is_empty())))
 }
 
-fn report(tour: Option<&Path>) -> Result<Report, Failure> {
+fn report(tour: Option<&Path>, sheet: Option<&Path>) -> Result<Report, Failure> {
     let opened = open::open(tour)?;
     let assembled = opened.assemble(&|| false)?;
+    if let Some(path) = sheet {
+        sheet::save(&assembled, path)?;
+    }
     Ok(Report::of(opened.name, &assembled))
 }
 
@@ -59,6 +64,18 @@ fn write_findings(out: &mut impl Write, tour: &str, findings: &Findings) -> io::
     }
     writeln!(out, "\nReflection maps: what the picture's water shows, what was predicted, what is missing")?;
     components(&findings.components).write(out)?;
+    if let Some(Water { error_codes, fresnel_strength, ripple_slope }) = findings.water {
+        let ripples = match ripple_slope {
+            0.0 => "it is still".to_owned(),
+            slope => format!("its ripples' slope is {:.2} % (root mean square)", 100.0 * slope),
+        };
+        writeln!(
+            out,
+            "\nThe water: mirror images are predicted within {error_codes:.1} codes (median); they follow Fresnel's law \
+             at {:.0} %; {ripples}",
+            100.0 * fresnel_strength
+        )?;
+    }
     let Bounds { left, right, forward, back, up, down } = findings.bounds;
     writeln!(out, "\nThe picture holds up to these distances from where it was taken")?;
     writeln!(

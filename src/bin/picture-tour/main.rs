@@ -14,6 +14,7 @@ mod play;
 mod render;
 mod renderer;
 mod report;
+mod sheet;
 mod table;
 mod views;
 
@@ -31,7 +32,7 @@ fn main() -> ExitCode {
         None => play::run(arguments.tour),
         Some(Command::Play { tour }) => play::run(tour),
         Some(Command::Render(arguments)) => render::run(&arguments),
-        Some(Command::Check { tour, json }) => check::run(tour.as_deref(), json),
+        Some(Command::Check { tour, json, sheet }) => check::run(tour.as_deref(), json, sheet.as_deref()),
         Some(Command::New(arguments)) => new::run(&arguments),
         Some(Command::Bake { tour, force }) => bake::run(&tour, force),
     };

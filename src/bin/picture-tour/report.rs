@@ -33,7 +33,20 @@ pub(crate) struct Findings {
     /// Sentences: disagreements, and what had to be moved or guessed.
     pub(crate) remarks: Vec<String>,
     pub(crate) components: Vec<Component>,
+    /// None without water.
+    pub(crate) water: Option<Water>,
     pub(crate) bounds: Bounds,
+}
+
+/// What the picture's water does to what it mirrors.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct Water {
+    /// Median difference between what it shows and what is predicted, sRGB codes.
+    pub(crate) error_codes: f32,
+    /// How closely its reflectance follows Fresnel's law as the camera's height changes, 0 to 1.
+    pub(crate) fresnel_strength: f32,
+    /// Root mean square slope of its ripples, 0 when it is still.
+    pub(crate) ripple_slope: f32,
 }
 
 /// One solved number.
@@ -124,6 +137,11 @@ impl Findings {
                     mean_lift: maps.mean_lift,
                 })
                 .collect(),
+            water: scene.water.then_some(Water {
+                error_codes: maps.tint.error_codes,
+                fresnel_strength: maps.tint.strength,
+                ripple_slope: maps.tint.slope,
+            }),
             bounds: Bounds {
                 left: at.x - low.x,
                 right: high.x - at.x,

@@ -37,6 +37,7 @@ fn the_tour_uniform_reaches_the_shader_unmoved() {
         eye: field(4.0),
         layer: field(5.0),
         flags: field(6.0),
+        water: field(7.0),
     };
     let mut buffer = UniformBuffer::new(Vec::<u8>::new());
     buffer.write(&sent).unwrap();
@@ -51,7 +52,7 @@ fn the_tour_uniform_reaches_the_shader_unmoved() {
         .iter()
         .map(|(name, at)| (name.as_str(), [0, 4, 8, 12].map(|more| number(at + more))))
         .collect();
-    let names = ["picture_from_x", "picture_from_y", "picture_from_z", "eye", "layer", "flags"];
+    let names = ["picture_from_x", "picture_from_y", "picture_from_z", "eye", "layer", "flags", "water"];
     let expected: Vec<(&str, [f32; 4])> =
         names.into_iter().zip(1_u8..).map(|(name, i)| (name, field(f32::from(i)).to_array())).collect();
     assert_eq!(read, expected, "what WGSL reads is not what Rust sends");

@@ -12,6 +12,7 @@ use bevy::render::render_resource::{
 use bevy::shader::{ShaderRef, load_shader_library};
 
 use crate::maps::Layer;
+use crate::maps::Tint;
 use crate::scene::Surface;
 use crate::scene::TourScene;
 
@@ -47,6 +48,7 @@ pub(super) struct TourUniform {
     eye: Vec4,
     layer: Vec4,
     flags: Vec4,
+    water: Vec4,
 }
 
 /// Coverage up to this is dropped in a depth pass.
@@ -54,7 +56,7 @@ const SOLID: f32 = 0.5;
 
 impl TourUniform {
     /// The uniform of component `index` with its texture map and the map's texels per picture pixel; the water has none.
-    pub(super) fn new(scene: &TourScene, index: usize, map: Option<(&Layer, f32)>) -> Self {
+    pub(super) fn new(scene: &TourScene, tint: &Tint, index: usize, map: Option<(&Layer, f32)>) -> Self {
         let camera = &scene.camera;
         let matrix = camera.picture_from_world_direction();
         let eye = camera.pose.position.as_vec3();
@@ -70,6 +72,7 @@ impl TourUniform {
             eye: eye.extend(index as f32),
             layer,
             flags: Vec4::new(f32::from(u8::from(infinite)), -1.0, scale, camera.intrinsics.focal_px as f32),
+            water: Vec3::from(tint.own_color()).extend(tint.strength),
         }
     }
 

@@ -32,6 +32,8 @@ struct TourUniform {
     // x: 1 where the mesh stands for infinity, y: most coverage that is dropped (0.5 in depth passes, else below 0),
     // z: texels per picture pixel, w: the picture's focal length in its pixels.
     flags: vec4<f32>,
+    // The water's own color (linear light), and how closely its reflectance follows Fresnel's law, 0 to 1.
+    water: vec4<f32>,
 }
 
 struct Component {

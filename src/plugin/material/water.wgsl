@@ -21,6 +21,22 @@ fn sample_map(maps: texture_2d<f32>, filtering: sampler, found: Component, at: v
     return sharp(maps, filtering, texel, found.atlas.xy, last, level);
 }
 
+// Schlick's reflectance of water seen at a grazing angle of this sine. Twin of `fresnel` in `maps/tint.rs`.
+fn fresnel(grazing: f32) -> f32 {
+    return 0.02 + 0.98 * pow(1.0 - clamp(grazing, 0.0, 1.0), 5.0);
+}
+
+// A texel seen in the water, up from which `was` goes to the picture's camera, for a view's camera to which `is` goes.
+// Twin of `Tint::at_angle`.
+fn at_angle(tour: TourUniform, texel: vec4<f32>, was: vec3<f32>, is: vec3<f32>) -> vec4<f32> {
+    if tour.water.w <= 0.0 {
+        return texel;
+    }
+    let change = fresnel(is.y / length(is)) / fresnel(was.y / length(was));
+    let ratio = clamp(pow(change, tour.water.w), 0.5, 2.0);
+    return vec4(max(tour.water.rgb + ratio * (texel.rgb - tour.water.rgb), vec3(0.0)), texel.a);
+}
+
 struct Hit {
     distance: f32,
     texel: vec4<f32>,
@@ -50,9 +66,12 @@ fn mirror_hit(
     if !(met.distance > 0.0) || !(met.distance < 1e9) || met.point.y < 0.0 || !inside(found, met.rest) {
         return Hit(-1.0, vec4(0.0));
     }
-    let seen = see(tour, mirror(met.rest));
-    let level = level_of(tour, records, look.row, mirror(met.point) - look.eye, seen.z, found.atlas.z);
-    return Hit(met.distance, sample_map(maps, filtering, found, seen.xy, level));
+    let image = mirror(met.rest);
+    let away = mirror(met.point) - look.eye;
+    let seen = see(tour, image);
+    let level = level_of(tour, records, look.row, away, seen.z, found.atlas.z);
+    let texel = sample_map(maps, filtering, found, seen.xy, level);
+    return Hit(met.distance, at_angle(tour, texel, tour.eye.xyz - image, -away));
 }
 
 struct Light {
@@ -109,15 +128,19 @@ fn mirrored(
     }
     let last = component(records, 0);
     var away = mirror(up.direction);
+    var was = up.direction;
     var seen = see_far(tour, away);
     if last.kind != INFINITE {
         let met = meet(records, row, 0, last, up);
         if met.distance > 0.0 && met.distance < 1e9 {
-            seen = see(tour, mirror(met.rest));
+            let image = mirror(met.rest);
+            seen = see(tour, image);
+            was = tour.eye.xyz - image;
             away = mirror(met.point) - look.eye;
         }
     }
     let level = level_of(tour, records, row, away, seen.z, last.atlas.z);
-    light = behind(light, vec4(sample_map(maps, filtering, last, seen.xy, level).rgb, 1.0));
+    let texel = at_angle(tour, sample_map(maps, filtering, last, seen.xy, level), was, -away);
+    light = behind(light, vec4(texel.rgb, 1.0));
     return light.color;
 }
