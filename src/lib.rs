@@ -2,7 +2,8 @@
 //!
 //! In a game: [`prelude`], [`plugin`]. Without a window: `headless`. The method itself, without Bevy, in the
 //! order of its data: [`tour`] (the document) → [`solve`] (the camera) → [`scene`] (planes in meters) →
-//! [`maps`] (what is on them), all run by [`assemble`], kept by [`bake`] → [`trace`] (the reference image).
+//! [`maps`] (what is on them), all run by [`assemble`], kept by [`bake`] → [`wind`] and [`water`] (what moves) → [`trace`]
+//! (the reference image).
 //! [`picture`] and [`camera`] stand below them all.
 //!
 //! Pictures: pixels, (0, 0) the outer corner of the top-left one, y down. World: meters, x right, y up, −z into the
@@ -24,6 +25,10 @@ pub mod maps;
 pub mod assemble;
 
 pub mod bake;
+
+pub mod wind;
+
+pub mod water;
 
 pub mod trace;
 

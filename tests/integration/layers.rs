@@ -4,8 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules of `src/`, lowest first.
-const LAYERS: [&str; 11] = [
-    "picture", "camera", "tour", "solve", "scene", "maps", "assemble", "bake", "trace", "plugin", "headless",
+const LAYERS: [&str; 13] = [
+    "picture", "camera", "tour", "solve", "scene", "maps", "assemble", "bake", "wind", "water", "trace",
+    "plugin", "headless",
 ];
 
 /// Every file below `folder` with this ending, in order.

@@ -1,0 +1,136 @@
+//! One square of the sea, repeated over the water: texels for the shader, and the same by interpolation.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::{DVec2, Vec2};
+
+use super::covariance::SlopeCovariance;
+use super::waves::Waves;
+use super::{TEXELS, WaveSample};
+
+/// Mip levels of a tile, down to one texel.
+pub const LEVELS: usize = TEXELS.ilog2() as usize + 1;
+
+/// A square of the sea that repeats along x and z.
+///
+/// Texel (column i, row j) of level l, at index l's start + j·(128 >> l) + i, is the mean over the square of 2ˡ·2ˡ texels of
+/// level 0, whose texel (i, j) lies at x = i·size/128, z = j·size/128 plus any multiple of the size. A texture is
+/// therefore read at uv = xz/size + 0.5/128.
+#[derive(Clone, Debug)]
+pub struct SeaTile {
+    size: f64,
+    texels: Vec<[f32; 4]>,
+    displacements: Vec<[f32; 2]>,
+    lost: [SlopeCovariance; LEVELS],
+}
+
+impl SeaTile {
+    /// The still tile `index` of a sea.
+    pub(super) fn new(waves: &Waves, index: usize) -> Self {
+        let mut lost = [SlopeCovariance::default(); LEVELS];
+        for wave in waves.waves.iter().filter(|wave| wave.tile == index) {
+            let mut kept = 1.0;
+            for (level, lost) in lost.iter_mut().enumerate() {
+                if level > 0 {
+                    // The mean of two neighbors of the level before.
+                    let half = PI / TEXELS as f64 * f64::from(1 << (level - 1)) * wave.cycles.as_dvec2();
+                    kept *= half.x.cos() * half.y.cos();
+                }
+                let mut whole = SlopeCovariance::default();
+                whole.add_wave(waves.wave_vector(wave), wave.amplitude);
+                *lost += whole * (1.0 - kept * kept);
+            }
+        }
+        let count = (0..LEVELS).map(|level| (TEXELS >> level).pow(2)).sum();
+        Self {
+            size: waves.sizes[index],
+            texels: vec![[0.0; 4]; count],
+            displacements: vec![[0.0; 2]; TEXELS * TEXELS],
+            lost,
+        }
+    }
+
+    /// Its side, meters.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// Height (meters), slope along x, slope along z, potential at the surface (m²/s): all mip levels one after the other, 128 × 128 texels first,
+    /// in rows along x.
+    #[must_use]
+    pub fn texels(&self) -> &[[f32; 4]] {
+        &self.texels
+    }
+
+    /// How far each point of level 0 is carried along x and z, meters, in rows along x.
+    #[must_use]
+    pub fn displacements(&self) -> &[[f32; 2]] {
+        &self.displacements
+    }
+
+    /// For each mip level the slope covariance that its averaging has taken away, at a gain of 1; grows with its square.
+    #[must_use]
+    pub fn lost_by_level(&self) -> &[SlopeCovariance; LEVELS] {
+        &self.lost
+    }
+
+    /// Makes it flat.
+    pub(super) fn flatten(&mut self) {
+        self.texels.fill([0.0; 4]);
+        self.displacements.fill([0.0; 2]);
+    }
+
+    /// Takes new texels, each with its displacement, of level 0 and averages them for the others.
+    pub(super) fn refill(&mut self, values: impl Iterator<Item = ([f32; 4], [f32; 2])>) {
+        let places = self.texels.iter_mut().zip(&mut self.displacements);
+        for ((texel, displacement), (value, carried)) in places.zip(values) {
+            *texel = value;
+            *displacement = carried;
+        }
+        let mut above = &mut self.texels[..];
+        let mut size = TEXELS;
+        while size > 1 {
+            let (fine, rest) = above.split_at_mut(size * size);
+            let rows = fine.chunks_exact(2 * size).map(|rows| rows.split_at(size));
+            for ((upper, lower), means) in rows.zip(rest.chunks_exact_mut(size / 2)) {
+                let (upper, lower) = (upper.as_chunks::<2>().0, lower.as_chunks::<2>().0);
+                for ((mean, [a, b]), [c, d]) in means.iter_mut().zip(upper).zip(lower) {
+                    *mean = std::array::from_fn(|i| 0.25 * (a[i] + b[i] + c[i] + d[i]));
+                }
+            }
+            above = rest;
+            size /= 2;
+        }
+    }
+
+    /// Height, slope and displacement by bilinear interpolation.
+    pub(super) fn sample(&self, xz: DVec2) -> WaveSample {
+        let place = (xz / self.size).map(|turns| turns.rem_euclid(1.0)) * TEXELS as f64;
+        let corner = place.floor();
+        let share = (place - corner).as_vec2();
+        let mut sample = WaveSample::default();
+        for (dx, dz) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            // A remainder may round up to 1, and NaN becomes 0: the mask keeps both inside.
+            let column = (corner.x as usize + dx) & (TEXELS - 1);
+            let row = (corner.y as usize + dz) & (TEXELS - 1);
+            let [height, x, z, potential] = self.texels[row * TEXELS + column];
+            let weight = (if dx == 0 { 1.0 - share.x } else { share.x })
+                * (if dz == 0 { 1.0 - share.y } else { share.y });
+            sample.height += weight * height;
+            sample.slope += weight * Vec2::new(x, z);
+            sample.potential += weight * potential;
+            sample.displacement += weight * Vec2::from(self.displacements[row * TEXELS + column]);
+        }
+        sample
+    }
+}
+
+/// The share of a wave's amplitude that is left of its mean over a rectangle of `footprint` meters.
+pub(super) fn kept_by_mean(wave_vector: DVec2, footprint: DVec2) -> f64 {
+    let sinc = |half: f64| if half.abs() < 1e-6 { 1.0 } else { half.sin() / half };
+    // Beyond the first zero there is nothing: the sidelobes are a rectangle's, not a pixel's. Nor is there for a footprint
+    // without end, times 0 or not.
+    let kept = |phase: f64| if phase.abs() < TAU { sinc(0.5 * phase) } else { 0.0 };
+    kept(wave_vector.x * footprint.x) * kept(wave_vector.y * footprint.y)
+}
