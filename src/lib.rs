@@ -2,8 +2,8 @@
 //!
 //! In a game: [`prelude`], [`plugin`]. Without a window: `headless`. The method itself, without Bevy, in the
 //! order of its data: [`tour`] (the document) → [`solve`] (the camera) → [`scene`] (planes in meters) →
-//! [`maps`] (what is on them), all run by [`assemble`], kept by [`bake`] → [`wind`] and [`water`] (what moves) → [`trace`]
-//! (the reference image).
+//! [`maps`] (what is on them), all run by [`assemble`], kept by [`bake`] → [`wind`] and [`water`], joined by
+//! [`motion`] (what moves) → [`trace`] (the reference image).
 //! [`picture`] and [`camera`] stand below them all.
 //!
 //! Pictures: pixels, (0, 0) the outer corner of the top-left one, y down. World: meters, x right, y up, −z into the
@@ -30,6 +30,8 @@ pub mod wind;
 
 pub mod water;
 
+pub mod motion;
+
 pub mod trace;
 
 #[cfg(feature = "plugin")]
@@ -43,7 +45,7 @@ pub mod headless;
 pub mod prelude {
     pub use crate::camera::Fit;
     pub use crate::plugin::{
-        ColorPolicy, Guide, PictureTour, PictureTourPlugin, PictureTourSystems, SolvedTour, TourAsset,
-        TourCamera, TourCameraState, TourFailed, TourReady,
+        ColorPolicy, Guide, PictureTour, PictureTourPlugin, PictureTourSystems, SolvedTour, TouchWater,
+        TourAsset, TourCamera, TourCameraState, TourFailed, TourMotion, TourReady,
     };
 }

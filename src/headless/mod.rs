@@ -35,7 +35,9 @@ use crate::plugin::TourAsset;
 use crate::plugin::TourCamera;
 use crate::plugin::TourCameraState;
 use crate::plugin::TourFailed;
+use crate::plugin::TourMotion;
 use crate::plugin::TourProjection;
+use crate::plugin::TourReady;
 
 /// Why no frame can be rendered.
 #[derive(Debug, thiserror::Error)]
@@ -122,9 +124,26 @@ impl HeadlessTour {
             failure.0 = Some(failed.error.clone());
         });
         finish(&mut app);
+        // The tour's clock is set from outside, not run.
+        app.add_observer(|ready: On<TourReady>, mut motions: Query<&mut TourMotion>| {
+            if let Ok(mut motion) = motions.get_mut(ready.entity) {
+                (motion.paused, motion.still) = (true, true);
+            }
+        });
         let mut tour = Self { app, camera, target, size };
         tour.wait()?;
         Ok(tour)
+    }
+
+    /// Shows the tour as it is so many seconds after its start; `None`, and before this is called, as the picture was taken.
+    pub fn go_to(&mut self, seconds: Option<f64>) {
+        let world = self.app.world_mut();
+        for mut motion in world.query::<&mut TourMotion>().iter_mut(world) {
+            motion.still = seconds.is_none();
+            if let Some(seconds) = seconds {
+                motion.go_to(seconds);
+            }
+        }
     }
 
     /// What was solved and built.

@@ -16,6 +16,10 @@ use crate::picture::color::srgb_from_linear;
 /// How many times a layer is halved.
 pub const MIP_LEVELS: usize = 4;
 
+/// Transparent pixels beside a layer's transparent borders: a texel of the coarsest level. Borders are prolonged where maps
+/// are read, and none of a layer's own coverage may get into them.
+pub const GUTTER: u32 = 1 << MIP_LEVELS;
+
 /// A layer and what remains of it when it is halved [`MIP_LEVELS`] times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mipmapped {
@@ -41,7 +45,9 @@ pub fn mip_level(texels: f64) -> f32 {
 }
 
 impl From<Layer> for Mipmapped {
+    /// The layer, with a [`GUTTER`] beside each of its borders that is transparent all along, and its levels.
     fn from(layer: Layer) -> Self {
+        let layer = with_gutters(layer);
         let mut coarser: Vec<Layer> = Vec::with_capacity(MIP_LEVELS);
         for _ in 0..MIP_LEVELS {
             let next = halved(coarser.last().unwrap_or(&layer));
@@ -100,6 +106,30 @@ fn linear([r, g, b, a]: [u8; 4]) -> Vec4 {
     Vec4::new(linear_from_srgb(r), linear_from_srgb(g), linear_from_srgb(b), f32::from(a) / 255.0)
 }
 
+fn with_gutters(layer: Layer) -> Layer {
+    if layer.size.min_element() == 0 {
+        return layer;
+    }
+    let end = layer.size - 1;
+    let clear = |from: UVec2, to: UVec2| {
+        let mut cells = (from.y..=to.y).flat_map(|y| (from.x..=to.x).map(move |x| (x, y)));
+        cells.all(|(x, y)| layer.cells[y as usize * layer.size.x as usize + x as usize][3] == 0)
+    };
+    let gutter = |is_clear: bool| if is_clear { GUTTER } else { 0 };
+    let low = UVec2::new(
+        gutter(clear(UVec2::ZERO, UVec2::new(0, end.y))),
+        gutter(clear(UVec2::ZERO, UVec2::new(end.x, 0))),
+    );
+    let high = UVec2::new(gutter(clear(UVec2::new(end.x, 0), end)), gutter(clear(UVec2::new(0, end.y), end)));
+    if low + high == UVec2::ZERO {
+        return layer;
+    }
+    Layer::from_fn(layer.origin - low.as_ivec2(), layer.size + low + high, |pixel| {
+        let nearest = pixel.clamp(layer.origin, layer.origin + end.as_ivec2());
+        layer.get(nearest).unwrap_or_default()
+    })
+}
+
 /// A layer of half the size.
 fn halved(layer: &Layer) -> Layer {
     let size = mip_size(layer.size, 1);
@@ -134,7 +164,7 @@ mod tests {
     fn a_half_transparent_edge_gets_no_dark_fringe() {
         // Opaque red beside transparent green: the mean is red at half coverage, not olive.
         let layer = Layer::from_fn(IVec2::ZERO, UVec2::new(4, 2), |pixel| {
-            if pixel.x % 2 == 0 { [255, 0, 0, 255] } else { [0, 255, 0, 0] }
+            if (pixel.x + pixel.y) % 2 == 0 { [255, 0, 0, 255] } else { [0, 255, 0, 0] }
         });
         let map = Mipmapped::from(layer);
         assert_eq!(map.coarser[0].cells, [[255, 0, 0, 128]; 2]);
@@ -153,6 +183,20 @@ mod tests {
         assert_eq!(map.coarser[0].cells[0], [188, 188, 188, 255]);
         let [r, _, _, a] = map.sample(PicturePoint::new(2.0, 1.0), 1.0);
         assert!((r - 0.5).abs() < 0.01 && a == 1.0, "{r} of the light, coverage {a}");
+    }
+
+    #[test]
+    fn nothing_of_a_layer_gets_into_its_prolonged_border() {
+        // A dot one pixel inside the border.
+        let layer = Layer::from_fn(IVec2::new(5, 7), UVec2::new(9, 9), |pixel| {
+            [9, 9, 9, if pixel == IVec2::new(6, 11) { 255 } else { 0 }]
+        });
+        let map = Mipmapped::from(layer);
+        assert_eq!(map.layer.origin, IVec2::new(5 - 16, 7 - 16));
+        for level in [0.0, 1.0, 2.5, 4.0] {
+            assert_eq!(map.sample(PicturePoint::new(-200.0, 11.5), level)[3], 0.0, "level {level}");
+        }
+        assert!(map.sample(PicturePoint::new(6.5, 11.5), 3.0)[3] > 0.0);
     }
 
     #[test]

@@ -27,7 +27,7 @@ mod zones;
 
 pub use coverage::{Edge, TourMasks};
 pub use grid::{Grid, Layer, snap};
-pub use mipmaps::{MIP_LEVELS, Mipmapped, mip_level, mip_size};
+pub use mipmaps::{GUTTER, MIP_LEVELS, Mipmapped, mip_level, mip_size};
 pub use reflection::Origin;
 pub use tint::{Tint, fresnel};
 

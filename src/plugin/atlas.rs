@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use bevy::math::{IVec2, UVec2};
 
-use crate::maps::{Layer, MIP_LEVELS, Mipmapped};
+use crate::maps::{GUTTER, Layer, MIP_LEVELS, Mipmapped};
 
 /// Texels of the layer that a texel of the coarsest mip level stands for, along a side.
 const BLOCK: u32 = 1 << MIP_LEVELS;
@@ -139,7 +139,7 @@ pub(super) fn trimmed(map: &Mipmapped, picture: UVec2, largest: u32) -> Cow<'_, 
     if layer.size.x <= largest || picture.x > largest {
         return Cow::Borrowed(map);
     }
-    let beside = (largest - picture.x) as i32 / 2;
+    let beside = ((largest - picture.x) / 2).saturating_sub(GUTTER) as i32;
     let low = layer.origin.x.max(-beside);
     let high = (layer.origin.x + layer.size.x as i32).min(picture.x as i32 + beside).max(low + 1);
     let origin = IVec2::new(low, layer.origin.y);

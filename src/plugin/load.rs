@@ -1,6 +1,6 @@
 //! From a handle to a tour that is shown: solving and map building, off the main thread, with an answer in the end.
 //!
-//! A preview is shown as soon as it can be, and refined in place: entities, materials and images stay. Tours whose
+//! A preview is shown as soon as it can be, and refined in place: entities and materials stay. Tours whose
 //! assets exist at start-up are shown before the first frame. When a changed file is broken, the last good tour stays.
 
 use std::sync::Arc;
@@ -15,6 +15,7 @@ use super::PictureTourSystems;
 use super::asset::{BakedTourLoader, TourAsset, TourLoader};
 use super::camera::TourPath;
 use super::material::{ColorPolicy, TourMaterial};
+use super::motion::TourMotion;
 use super::spawn::{self, ShownTour, TourAssets};
 use crate::assemble::AssembleError;
 use crate::assemble::AssembledTour;
@@ -220,6 +221,7 @@ fn finish(
             for remark in built.remarks.iter().chain(&built.solution.report.remarks) {
                 info!("{remark}");
             }
+            commands.entity(entity).try_insert(TourMotion::new(asset.tour(), &built.scene));
             spawn::show(commands, assets, entity, built, *policy, layers, before);
             match asset.tour().path.as_ref().and_then(CameraPath::way) {
                 Some(path) => commands.entity(entity).try_insert(TourPath(path)),

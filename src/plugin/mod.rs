@@ -7,15 +7,18 @@ mod atlas;
 mod camera;
 mod load;
 mod material;
+mod motion;
 mod records;
 mod sort;
 mod spawn;
+mod stir;
 mod views;
 
 pub use asset::{BakedTourLoadError, TourAsset, TourLoadError};
 pub use camera::{Guide, TourCamera, TourCameraState, TourPath, TourProjection};
 pub use load::{PictureTour, TourFailed, TourReady};
 pub use material::ColorPolicy;
+pub use motion::{TouchWater, TourMotion};
 pub use spawn::{SolvedTour, TourPart};
 
 use bevy::asset::AssetEventSystems;
@@ -32,7 +35,8 @@ pub enum PictureTourSystems {
     /// Takes over finished tours; reads keys, pointer, touch and gamepad into what each camera wishes. Set
     /// [`TourCamera::listens`] before it.
     Input,
-    /// For what a game simulates; the plugin's own steps of water and wind will run here.
+    /// Steps water, wind and bodies. Write [`TouchWater`] and change a [`TourMotion`]'s wind before it; ask it for the water
+    /// after it.
     Simulate,
     /// Moves cameras. Change a [`TourCameraState`]'s pose after it to have the last word.
     Move,
@@ -42,7 +46,8 @@ pub enum PictureTourSystems {
 
 impl Plugin for PictureTourPlugin {
     fn build(&self, app: &mut App) {
-        app.add_plugins((material::plugin, sort::plugin, load::plugin));
+        app.add_plugins((material::plugin, sort::plugin, load::plugin)).add_message::<TouchWater>();
+        app.init_resource::<stir::Stirring>();
         app.configure_sets(
             Update,
             (
@@ -56,7 +61,8 @@ impl Plugin for PictureTourPlugin {
         app.add_systems(
             Update,
             (
-                camera::read_devices.in_set(PictureTourSystems::Input),
+                (stir::stir, camera::read_devices).chain().in_set(PictureTourSystems::Input),
+                motion::advance.in_set(PictureTourSystems::Simulate),
                 camera::move_cameras.in_set(PictureTourSystems::Move),
                 camera::place_cameras.in_set(PictureTourSystems::Upload),
             ),

@@ -1,7 +1,7 @@
 //! The small float texture that tells the shaders about views and components.
 //!
-//! Rows 0 to 7 belong to views and say where each finds the components, row 8 says what the components are; the layout
-//! stands in `material/tour.wgsl`. It is written in place each frame that anything changed, so no material is touched.
+//! Rows 0 to 7 belong to views and say where each finds the components, row 8 says what the components are, row 9 how they
+//! sway, row 10 what the water does; the layout stands in `material/tour.wgsl` and `material/waves.wgsl`. It is written in place each frame that anything changed, so no material is touched.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::Image;
@@ -13,6 +13,9 @@ use crate::maps::Layer;
 use crate::scene::MAX_COMPONENTS;
 use crate::scene::Placement;
 use crate::scene::Surface;
+use crate::water::ripples::Ripples;
+use crate::water::sea::SeaSurface;
+use crate::wind::SwayRecord;
 
 /// How many cameras can look at one tour in one frame.
 pub(super) const MAX_VIEWS: usize = 8;
@@ -21,9 +24,13 @@ const TEXELS_PER_COMPONENT: usize = 5;
 /// Where a view's row begins to say where the components are, and how many texels each takes.
 const FIRST_PLACEMENT: usize = 8 + MAX_COMPONENTS / 4;
 const TEXELS_PER_PLACEMENT: usize = 3;
-const WIDTH: usize = MAX_COMPONENTS * TEXELS_PER_COMPONENT;
+const TEXELS_PER_SWAY: usize = 8;
+const WIDTH: usize = MAX_COMPONENTS * TEXELS_PER_SWAY;
 const _: () = assert!(FIRST_PLACEMENT + MAX_COMPONENTS * TEXELS_PER_PLACEMENT <= WIDTH);
-const HEIGHT: usize = MAX_VIEWS + 1;
+const COMPONENT_ROW: usize = MAX_VIEWS;
+const SWAY_ROW: usize = MAX_VIEWS + 1;
+const WATER_ROW: usize = MAX_VIEWS + 2;
+const HEIGHT: usize = MAX_VIEWS + 3;
 
 /// One camera's look at a tour.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +90,7 @@ impl Records {
 
     /// Writes one component: its plane, and where its reflection map lies.
     pub(super) fn set_component(&mut self, index: usize, surface: &Surface, map: Option<(&Layer, Place)>) {
-        let first = MAX_VIEWS * WIDTH + index * TEXELS_PER_COMPONENT;
+        let first = COMPONENT_ROW * WIDTH + index * TEXELS_PER_COMPONENT;
         let texels = &mut self.0[first..first + TEXELS_PER_COMPONENT];
         let extent = |along: [f64; 2], up: [f64; 2]| {
             Vec4::new(along[0] as f32, along[1] as f32, up[0] as f32, up[1] as f32)
@@ -109,9 +116,42 @@ impl Records {
         }
     }
 
+    /// Writes how the components sway.
+    pub(super) fn set_sways(&mut self, sways: &[SwayRecord]) {
+        let row = &mut self.0[SWAY_ROW * WIDTH..(SWAY_ROW + 1) * WIDTH];
+        for (texels, sway) in row.chunks_exact_mut(TEXELS_PER_SWAY).zip(sways) {
+            texels.copy_from_slice(&sway.rows());
+        }
+    }
+
+    /// Writes what the water does.
+    pub(super) fn set_water(&mut self, sea: Option<&SeaSurface>, ripples: Option<&Ripples>) {
+        let texels = &mut self.0[WATER_ROW * WIDTH..(WATER_ROW + 1) * WIDTH];
+        texels[..6].fill(Vec4::ZERO);
+        if let Some(sea) = sea.filter(|sea| sea.present_gain() > 0.0) {
+            // Variance in any one direction is half of the whole.
+            let half = 0.5 * sea.present_gain().powi(2);
+            for (side, tile) in sea.tiles().iter().enumerate() {
+                texels[0][side] = tile.size() as f32;
+                for (level, lost) in tile.lost_by_level().iter().enumerate() {
+                    texels[2 + 2 * side + level / 4][level % 4] = (half * lost.total()) as f32;
+                }
+            }
+            texels[0].z = 1.0;
+            texels[1].w = (half * sea.hidden_covariance().total()) as f32;
+        }
+        if let Some(ripples) = ripples {
+            let grid = ripples.grid();
+            let origin = grid.origin.as_vec2();
+            texels[0].w = 1.0;
+            texels[1] = Vec4::new(origin.x, origin.y, grid.cell as f32, texels[1].w);
+        }
+    }
+
     /// The texture's bytes.
     pub(super) fn bytes(&self) -> Vec<u8> {
-        self.0.iter().flat_map(Vec4::to_array).flat_map(f32::to_le_bytes).collect()
+        let numbers: Vec<[f32; 4]> = self.0.iter().map(Vec4::to_array).collect();
+        bytemuck::cast_slice(&numbers).to_vec()
     }
 
     /// A texture that holds these records.

@@ -12,10 +12,11 @@ use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
 use super::atlas::{self, Atlas, Texels};
 use super::material::{ColorPolicy, TourMaterial, TourUniform};
+use super::motion::waves_image;
 use super::records::{Records, ViewRecord};
 use crate::assemble::AssembledTour;
 use crate::maps::Mipmapped;
-use crate::scene::Surface;
+use crate::scene::{Role, Surface};
 
 /// What was solved and built for a tour: parameters, report, scene and maps. On the tour's entity once it is ready.
 #[derive(Component, Clone, Debug, Deref)]
@@ -43,9 +44,10 @@ pub(super) struct ShownTour {
     pub image: Handle<Image>,
     /// Children, for a clean replacement.
     pub parts: Vec<Entity>,
-    /// What `parts` read: a texture map a component, in the scene's order, and all reflection maps in one.
-    pub textures: Vec<Handle<Image>>,
-    pub atlas: Option<Handle<Image>>,
+    /// Per part of `parts` its material, and that of its depth pass.
+    pub materials: Vec<[Handle<TourMaterial>; 2]>,
+    /// The moving water.
+    pub waves: Handle<Image>,
 }
 
 /// The assets a tour is spawned into.
@@ -97,20 +99,20 @@ pub(super) fn show(
         records.set_component(index, &component.surface, map);
     }
     let image = assets.images.add(records.image());
-    let mut spawner = Spawner { commands, root, layers, parts: Vec::new() };
+    let waves = assets.images.add(waves_image());
+    let mut spawner = Spawner { commands, root, layers, parts: Vec::new(), materials: Vec::new() };
 
-    let mut textures = Vec::with_capacity(scene.components.len());
     for (index, component) in scene.components.iter().enumerate() {
         let map = atlas::trimmed(&tour.maps.components[index].texture, picture, largest);
         let infinite = component.surface == Surface::Infinity;
         let (texels, scale) = texels(&map, largest);
         let uniform = TourUniform::new(scene, &tour.maps.tint, index, Some((&map.layer, scale)));
         let map = assets.images.add(image_of(texels));
-        textures.push(map.clone());
         let material = TourMaterial {
             tour: uniform,
             records: image.clone(),
             map,
+            waves: waves.clone(),
             policy,
             depth_only: false,
             water: false,
@@ -118,17 +120,18 @@ pub(super) fn show(
         let mesh = assets.meshes.add(quad(corners(&component.surface)));
         let depth = assets.materials.add(material.depth_only());
         let material = assets.materials.add(material);
-        // What turns leaves its mesh's box.
-        let unbounded = infinite || component.turns_to_camera;
+        // What turns or moves leaves its mesh's box.
+        let unbounded = infinite || component.role == Role::Billboard;
         spawner.part(&component.name, TourPart::Component(index), mesh, material, depth, unbounded);
     }
-    let atlas = scene.water.then(|| assets.images.add(image_of(atlas.texture)));
-    if let Some(map) = &atlas {
+    if scene.water {
+        let map = assets.images.add(image_of(atlas.texture));
         let uniform = TourUniform::new(scene, &tour.maps.tint, 0, None);
         let material = TourMaterial {
             tour: uniform,
             records: image.clone(),
-            map: map.clone(),
+            map,
+            waves: waves.clone(),
             policy,
             depth_only: false,
             water: true,
@@ -147,7 +150,7 @@ pub(super) fn show(
         let material = assets.materials.add(material);
         spawner.part("water", TourPart::Water, mesh, material, depth, false);
     }
-    let parts = spawner.parts;
+    let Spawner { parts, materials, .. } = spawner;
     // Somebody may have despawned the root in this very frame; its parts must not outlive it.
     let orphans = parts.clone();
     commands.queue(move |world: &mut World| {
@@ -157,11 +160,11 @@ pub(super) fn show(
             }
         }
     });
-    let shown = ShownTour { views: Vec::new(), records, image, parts, textures, atlas };
+    let shown = ShownTour { views: Vec::new(), records, image, parts, materials, waves };
     commands.entity(root).try_insert((SolvedTour(tour), shown));
 }
 
-/// Replaces the maps of a shown tour by finer ones of the same scene; entities, materials and images stay.
+/// Replaces the maps of a shown tour by finer ones of the same scene; entities and materials stay.
 pub(super) fn refine(
     commands: &mut Commands,
     assets: &mut TourAssets,
@@ -171,18 +174,19 @@ pub(super) fn refine(
 ) {
     let largest = assets.largest();
     let picture = tour.scene.camera.intrinsics.size;
-    let mut replace = |handle: &Handle<Image>, image: Image| {
-        if let Some(mut old) = assets.images.get_mut(handle) {
-            *old = image;
-        }
-    };
-    for (handle, maps) in shown.textures.iter().zip(&tour.maps.components) {
+    let textures = tour.maps.components.iter().map(|maps| {
         let map = atlas::trimmed(&maps.texture, picture, largest);
-        replace(handle, image_of(texels(&map, largest).0));
-    }
-    if let Some(handle) = &shown.atlas {
-        let (_, atlas) = packed(&tour, largest);
-        replace(handle, image_of(atlas.texture));
+        image_of(texels(&map, largest).0)
+    });
+    let water = tour.scene.water.then(|| image_of(packed(&tour, largest).1.texture));
+    for (materials, image) in shown.materials.iter().zip(textures.chain(water)) {
+        // A new image: of one that stays Bevy would rewrite the finest level only.
+        let map = assets.images.add(image);
+        for handle in materials {
+            if let Some(mut material) = assets.materials.get_mut(handle) {
+                material.map = map.clone();
+            }
+        }
     }
     commands.entity(root).try_insert(SolvedTour(tour));
 }
@@ -206,6 +210,7 @@ struct Spawner<'a, 'w, 's> {
     root: Entity,
     layers: Option<&'a RenderLayers>,
     parts: Vec<Entity>,
+    materials: Vec<[Handle<TourMaterial>; 2]>,
 }
 
 impl Spawner<'_, '_, '_> {
@@ -225,7 +230,7 @@ impl Spawner<'_, '_, '_> {
                 Name::new(name.to_owned()),
                 part,
                 bundle.clone(),
-                MeshMaterial3d(material),
+                MeshMaterial3d(material.clone()),
                 ChildOf(self.root),
             ))
             .id();
@@ -235,7 +240,7 @@ impl Spawner<'_, '_, '_> {
                 Name::new(format!("{name} (depth)")),
                 DepthPass,
                 bundle,
-                MeshMaterial3d(depth),
+                MeshMaterial3d(depth.clone()),
                 ChildOf(shown),
             ))
             .id();
@@ -249,6 +254,7 @@ impl Spawner<'_, '_, '_> {
             }
         }
         self.parts.push(shown);
+        self.materials.push([material, depth]);
     }
 }
 

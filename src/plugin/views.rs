@@ -10,10 +10,13 @@ use bevy::prelude::*;
 use bevy::render::extract_resource::ExtractResource;
 
 use super::camera::TourCameraState;
+use super::motion::{TourMotion, shown_ripples};
 use super::records::{MAX_VIEWS, ViewRecord};
 use super::spawn::{DepthPass, ShownTour, SolvedTour, TourPart};
+use crate::scene::MAX_COMPONENTS;
 use crate::scene::TourScene;
 use crate::scene::{Arrangement, Placement, Surface};
+use crate::wind::SwayRecord;
 
 /// Per camera: the sort distance of each part's mesh, view depth as Bevy counts it (nearer is greater).
 #[derive(Resource, ExtractResource, Clone, Debug, Default)]
@@ -21,7 +24,14 @@ pub(super) struct DrawOrder(pub HashMap<Entity, HashMap<Entity, f32>>);
 
 /// Writes every tour's records and the draw order.
 pub(super) fn look_at_tours(
-    mut tours: Query<(Entity, &GlobalTransform, &SolvedTour, &mut ShownTour, Option<&RenderLayers>)>,
+    mut tours: Query<(
+        Entity,
+        &GlobalTransform,
+        &SolvedTour,
+        &mut ShownTour,
+        Option<&mut TourMotion>,
+        Option<&RenderLayers>,
+    )>,
     cameras: Query<
         (Entity, &Camera, &GlobalTransform, Option<&TourCameraState>, Option<&RenderLayers>),
         With<Camera3d>,
@@ -35,9 +45,13 @@ pub(super) fn look_at_tours(
     // The layer of whatever has no layers of its own.
     let everything_else = RenderLayers::default();
     let mut new_order: HashMap<Entity, HashMap<Entity, f32>> = HashMap::default();
-    for (root, tour_transform, solved, mut shown, layers) in &mut tours {
+    for (root, tour_transform, solved, mut shown, mut motion, layers) in &mut tours {
         let layers = layers.cloned().unwrap_or_default();
         let tour_from_world = affine(tour_transform).inverse();
+        let moved = motion
+            .as_ref()
+            .filter(|motion| !motion.still)
+            .map_or_else(Vec::new, |motion| motion.simulation().moment().placements.clone());
         let mut views = Vec::new();
         for (camera, settings, transform, state, seen) in &cameras {
             if !settings.is_active || !seen.unwrap_or(&everything_else).intersects(&layers) {
@@ -56,7 +70,7 @@ pub(super) fn look_at_tours(
                 continue;
             }
             let Arrangement { placements, near_to_far } =
-                solved.scene.arranged_for(tour_from_view.translation);
+                solved.scene.arranged_for(tour_from_view.translation, &moved);
             let distances = new_order.entry(camera).or_default();
             let scale =
                 (affine(transform).matrix3.inverse() * affine(tour_transform).matrix3).x_axis.length();
@@ -80,7 +94,22 @@ pub(super) fn look_at_tours(
             });
         }
         let shown = shown.bypass_change_detection();
-        if views != shown.views {
+        let has_moved = motion.as_mut().is_some_and(|motion| motion.bypass_change_detection().take_changed());
+        if let Some(motion) = motion.as_mut().filter(|_| has_moved) {
+            let motion = motion.bypass_change_detection();
+            if motion.still {
+                shown.records.set_sways(&[SwayRecord::default(); MAX_COMPONENTS]);
+                shown.records.set_water(None, None);
+            } else {
+                shown.records.set_sways(&motion.simulation().moment().sways);
+                let ripples = shown_ripples(motion.simulation().ripples());
+                shown.records.set_water(motion.simulation().sea(), ripples);
+                if let Some(mut image) = images.get_mut(&shown.waves) {
+                    image.data = Some(motion.waves());
+                }
+            }
+        }
+        if has_moved || views != shown.views {
             shown.records.set_views(&views);
             if let Some(mut image) = images.get_mut(&shown.image) {
                 image.data = Some(shown.records.bytes());
@@ -100,7 +129,8 @@ fn at_rest_unless_placed(scene: &TourScene, placements: Vec<Option<Placement>>) 
     placements.into_iter().zip(resting).map(|(placed, resting)| placed.or(resting)).collect()
 }
 
-fn affine(transform: &GlobalTransform) -> DAffine3 {
+/// A transform in f64.
+pub(super) fn affine(transform: &GlobalTransform) -> DAffine3 {
     DAffine3::from_mat4(DMat4::from_cols_array(&transform.to_matrix().to_cols_array().map(f64::from)))
 }
 

@@ -73,6 +73,12 @@ fn along3(along: DVec2) -> DVec3 {
 }
 
 impl Placement {
+    /// The resting wall moved to where this one's contact line is; as far as the order of walls goes.
+    fn contact(&self, wall: &Wall) -> Wall {
+        let along = DVec2::new(self.along.x, self.along.z).normalize_or(wall.along);
+        Wall { foot: DVec2::new(self.origin.x, self.origin.z), along, ..*wall }
+    }
+
     /// Where a ray meets the wall that is here, inside its rectangle.
     #[must_use]
     pub fn meet(&self, wall: &Wall, ray: Ray) -> Option<Meeting> {
@@ -104,11 +110,12 @@ impl Arrangement {
 }
 
 impl TourScene {
-    /// The scene as seen from `eye`: what turns to the camera is turned.
+    /// The scene as seen from `eye`: what turns to the camera is turned. `moved` says where walls are that do not rest, by
+    /// component; it may be shorter.
     ///
     /// The ground ends where the first band stands, so it comes just before that; the last layer is last.
     #[must_use]
-    pub fn arranged_for(&self, eye: DVec3) -> Arrangement {
+    pub fn arranged_for(&self, eye: DVec3, moved: &[Option<Placement>]) -> Arrangement {
         let mut placements = vec![None; self.components.len()];
         let mut walls = Vec::with_capacity(self.components.len());
         for (index, component) in self.components.iter().enumerate() {
@@ -117,7 +124,10 @@ impl TourScene {
                 continue;
             };
             let mut now = *wall;
-            if component.turns_to_camera {
+            if let Some(Some(placement)) = moved.get(index) {
+                now = placement.contact(wall);
+                placements[index] = Some(*placement);
+            } else if component.turns_to_camera {
                 now = wall.turned(eye, self.camera.pose.position);
                 placements[index] = Some(now.resting());
             }

@@ -76,7 +76,7 @@ impl TourScene {
     /// All components in the order of drawing, near to far as seen from `position` (meters; only x and z matter).
     #[must_use]
     pub fn near_to_far(&self, position: glam::DVec3) -> Vec<usize> {
-        self.arranged_for(position).near_to_far
+        self.arranged_for(position, &[]).near_to_far
     }
 
     /// The billboards and bands of an order of drawing.

@@ -6,9 +6,7 @@
 
 pub mod compare;
 mod eye;
-mod water_surface;
-
-pub use water_surface::{StillWater, WaterPoint, WaterSurface};
+mod mirrored;
 
 use eye::Eye;
 
@@ -24,22 +22,23 @@ use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::picture::color::srgb_from_linear3;
 use crate::scene::Arrangement;
-use crate::scene::Role;
+use crate::scene::Meeting;
+use crate::scene::Placement;
 use crate::scene::Surface;
 use crate::scene::TourScene;
-use crate::scene::mirror;
+use crate::water::{StillWater, WaterSurface};
+use crate::wind::SwayRecord;
 
 /// Less light than this is left behind a layer: half a display code cannot change any more.
 const OPAQUE: f32 = 1.0 / 8192.0;
-
-/// A mirrored ray climbs at least this steeply; steep waves would send it under the water (notes §8.2).
-const LEAST_CLIMB: f64 = 1e-5;
 
 /// A scene with its maps, ready to be looked at.
 pub struct Reference<'a> {
     scene: &'a TourScene,
     maps: &'a Maps,
     water: &'a dyn WaterSurface,
+    moved: &'a [Option<Placement>],
+    sways: &'a [SwayRecord],
     eye: Eye,
 }
 
@@ -50,16 +49,23 @@ impl std::fmt::Debug for Reference<'_> {
 }
 
 impl<'a> Reference<'a> {
-    /// A reference of still water.
+    /// A reference in which nothing moves.
     #[must_use]
     pub fn new(scene: &'a TourScene, maps: &'a Maps) -> Self {
-        Self::with_water(scene, maps, &StillWater)
+        let eye = Eye::of(&scene.camera);
+        Self { scene, maps, water: &StillWater, moved: &[], sways: &[], eye }
     }
 
-    /// A reference whose water has the given heights and normals.
+    /// The same with moving water.
     #[must_use]
-    pub fn with_water(scene: &'a TourScene, maps: &'a Maps, water: &'a dyn WaterSurface) -> Self {
-        Self { scene, maps, water, eye: Eye::of(&scene.camera) }
+    pub fn with_water(self, water: &'a dyn WaterSurface) -> Self {
+        Self { water, ..self }
+    }
+
+    /// The same with walls elsewhere than they rest and plants that sway, both by component; they may be shorter.
+    #[must_use]
+    pub fn with_motion(self, moved: &'a [Option<Placement>], sways: &'a [SwayRecord]) -> Self {
+        Self { moved, sways, ..self }
     }
 
     /// Renders what `camera` sees, `samples` rays a pixel (at least 1; one goes through the pixel's center), on all
@@ -68,7 +74,7 @@ impl<'a> Reference<'a> {
     pub fn render(&self, camera: &PinholeCamera, samples: u32) -> Picture {
         let size = camera.intrinsics.size.max(UVec2::ONE);
         let offsets = sample_offsets(samples);
-        let look = Look::of(camera, self.scene);
+        let look = Look::of(camera, self.scene.arranged_for(camera.pose.position, self.moved));
         let mut pixels = vec![[0_u8; 3]; size.x as usize * size.y as usize];
         pixels.par_chunks_mut(size.x as usize).enumerate().for_each(|(row, pixels)| {
             for (column, pixel) in pixels.iter_mut().enumerate() {
@@ -91,7 +97,7 @@ impl<'a> Reference<'a> {
     fn look(&self, ray: Ray, look: &Look) -> [f32; 3] {
         let mut light = Accumulated::default();
         for &index in &look.arrangement.near_to_far {
-            if let Some(met) = look.arrangement.meet(self.scene, index, ray) {
+            if let Some(met) = self.meet(look, index, ray) {
                 // At infinity only the direction counts.
                 let texel = if met.t.is_finite() {
                     self.read(&self.maps.components[index].texture, look, met.point, met.rest.0)
@@ -126,72 +132,20 @@ impl<'a> Reference<'a> {
         map.sample(at, look.level(self.scene, direction, depth))
     }
 
-    /// What the water shows to a ray that goes down to it.
-    fn mirrored(&self, ray: Ray, look: &Look) -> [f32; 3] {
-        let mut at = ray.at(-ray.origin.y / ray.direction.y);
-        let mut water = self.water.at(DVec2::new(at.x, at.z));
-        if water.height != 0.0 {
-            // One step towards where the ray meets the displaced surface (notes §8.3).
-            at = ray.at((water.height - ray.origin.y) / ray.direction.y);
-            water = self.water.at(DVec2::new(at.x, at.z));
-        }
-        let incoming = ray.direction.normalize();
-        let mut direction = incoming - 2.0 * incoming.dot(water.normal) * water.normal;
-        direction.y = direction.y.max(LEAST_CLIMB);
-        let up = Ray { origin: at, direction };
-
-        let mut light = Accumulated::default();
-        // The ground is level: which walls it hides depends on the ray.
-        let mut ground = self.scene.ground().and_then(|index| self.mirror_hit(index, up, look));
-        for index in self.scene.walls_of(&look.arrangement.near_to_far) {
-            let Some((t, texel)) = self.mirror_hit(index, up, look) else { continue };
-            if let Some((_, texel)) = ground.take_if(|(t_ground, _)| *t_ground < t) {
-                light.add(texel);
-            }
-            light.add(texel);
-            if light.left < OPAQUE {
-                return light.color;
+    /// Where a ray meets a component, and the point that is there when nothing moves.
+    fn meet(&self, look: &Look, index: usize, ray: Ray) -> Option<Meeting> {
+        let mut met = look.arrangement.meet(self.scene, index, ray)?;
+        if let (Surface::Wall(wall), Some(sway)) =
+            (&self.scene.components[index].surface, self.sways.get(index))
+        {
+            let seen = DVec2::new(wall.along_of(met.rest.0), met.rest.0.y).as_vec2();
+            let rest = sway.rest_point(seen);
+            // What is still keeps its bits.
+            if rest != seen {
+                met.rest.0 = wall.point(f64::from(rest.x), f64::from(rest.y));
             }
         }
-        if let Some((_, texel)) = ground {
-            light.add(texel);
-        }
-        let Some(last) = &self.maps.components[0].reflection else { return light.color };
-        let met = match self.scene.last_layer().surface {
-            Surface::Infinity => None,
-            surface => surface.meet(up).map(|t| mirror(up.at(t))),
-        };
-        let [r, g, b, _] = match met {
-            Some(point) => self.read_mirrored(last, look, point, point),
-            None => {
-                self.at_angle(self.read_far(last, look, mirror(up.direction)), up.direction, up.direction)
-            }
-        };
-        light.add([r, g, b, 1.0]);
-        light.color
-    }
-
-    /// Where a mirrored ray meets a component above the water, and the texel of its reflection map there.
-    fn mirror_hit(&self, index: usize, up: Ray, look: &Look) -> Option<(f64, [f32; 4])> {
-        let map = self.maps.components[index].reflection.as_ref()?;
-        let component = &self.scene.components[index];
-        debug_assert!(component.role != Role::LastLayer, "the last layer is met by all rays");
-        let met = look.arrangement.meet(self.scene, index, up)?;
-        (met.point.y >= 0.0)
-            .then(|| (met.t, self.read_mirrored(map, look, mirror(met.point), mirror(met.rest.0))))
-    }
-
-    /// A reflection map at the mirror image `rest` that is seen at `point`, for the angle at which it is seen.
-    fn read_mirrored(&self, map: &Mipmapped, look: &Look, point: DVec3, rest: DVec3) -> [f32; 4] {
-        let was = self.scene.camera.pose.position - rest;
-        self.at_angle(self.read(map, look, point, rest), was, look.position - point)
-    }
-
-    /// A texel of the water, from which `was` goes up to the picture's camera, for a camera to which `is` goes.
-    fn at_angle(&self, [r, g, b, alpha]: [f32; 4], was: DVec3, is: DVec3) -> [f32; 4] {
-        let [was, is] = [was, is].map(|up| (up.y / up.length()) as f32);
-        let [r, g, b] = self.maps.tint.at_angle([r, g, b], was, is);
-        [r, g, b, alpha]
+        Some(met)
     }
 }
 
@@ -204,12 +158,12 @@ struct Look {
 }
 
 impl Look {
-    fn of(camera: &PinholeCamera, scene: &TourScene) -> Self {
+    fn of(camera: &PinholeCamera, arrangement: Arrangement) -> Self {
         Self {
             position: camera.pose.position,
             forward: camera.pose.rotation * DVec3::NEG_Z,
             focal_px: camera.intrinsics.focal_px,
-            arrangement: scene.arranged_for(camera.pose.position),
+            arrangement,
         }
     }
 

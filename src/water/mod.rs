@@ -9,6 +9,9 @@ mod fft;
 pub mod body;
 pub mod ripples;
 pub mod sea;
+mod surface;
+
+pub use surface::{MovingWater, StillWater, WaterPoint, WaterSurface};
 
 /// Acceleration of gravity, m/s².
 pub const GRAVITY: f64 = 9.806_65;

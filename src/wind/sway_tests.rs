@@ -231,7 +231,7 @@ fn what_cannot_stand_is_refused() {
 
 #[test]
 fn the_shader_reads_the_record_as_it_is_sent() {
-    let source = include_str!("sway.wgsl");
+    let source = include_str!("../plugin/material/sway.wgsl");
     let plain: String = source.lines().filter(|line| !line.starts_with('#')).collect::<Vec<_>>().join("\n");
     let module = naga::front::wgsl::parse_str(&plain).expect("the shader should parse");
     naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty())

@@ -9,8 +9,12 @@ use bevy::render::settings::{WgpuSettings, WgpuSettingsPriority};
 use bevy_picture_tour::assemble::TourSource;
 use bevy_picture_tour::camera::{Intrinsics, PinholeCamera};
 use bevy_picture_tour::headless::{HeadlessTour, headless_app, headless_app_with};
+use bevy_picture_tour::motion::Simulation;
 use bevy_picture_tour::picture::{Mask, Picture, PicturePoint, PngPixels, save_png};
-use bevy_picture_tour::tour::{BackgroundPlace, Band, Region, Sky, Tour, TourFile};
+use bevy_picture_tour::tour::{
+    BackgroundPlace, Band, Floating, Jonswap, Motion, Region, Sea, Sky, Support, Sway, SwayKind, Tour,
+    TourFile, Wind,
+};
 use bevy_picture_tour::trace::Reference;
 use bevy_picture_tour::trace::compare::Comparison;
 
@@ -107,6 +111,74 @@ fn what_turns_and_what_is_shown_small_is_drawn_alike() {
         }
         assert!(mean < MEAN, "{name}: mean difference {mean:.4} codes, at most {MEAN}");
         assert!(within >= WITHIN_3, "{name}: {within:.5} within 3 codes, at least {WITHIN_3}");
+    }
+}
+
+#[test]
+fn what_moves_is_drawn_alike() {
+    let Some(_gpu) = adapter() else { return };
+    let source = a1_with(|tour| {
+        tour.wind = Wind { speed: 5.0, ..Wind::default() };
+        tour.waves.sea = Sea::Jonswap(Jonswap::default());
+        for object in &mut tour.objects {
+            object.motion = match object.support {
+                Support::Water => Motion::Floating(floating()),
+                Support::Ground => Motion::Sway(trunk()),
+            };
+        }
+    });
+    let size = source.picture.size();
+    let mut gpu = HeadlessTour::new(source.clone(), size, Transform::default()).unwrap();
+    let solved = gpu.solved().expect("the tour is shown");
+    let own = solved.scene.camera;
+    let (mut motion, remarks) = Simulation::new(&source.tour, &solved.scene);
+    assert!(remarks.is_empty(), "{remarks:?}");
+    for (seconds, pose) in [0.0, 1.3, 4.0, 9.7, 19.5].into_iter().zip(a1::poses()) {
+        let camera = PinholeCamera { pose, ..own };
+        gpu.go_to(Some(seconds));
+        motion.go_to(seconds);
+        let water = motion.water();
+        let expected = Reference::new(&solved.scene, &solved.maps)
+            .with_water(&water)
+            .with_motion(&motion.moment().placements, &motion.moment().sways)
+            .render(&camera, 1);
+        let frame = gpu.render(&camera).unwrap();
+        let found = Comparison::of(&frame, &expected).unwrap();
+        let (mean, within) = (found.mean_difference, found.share_within(6));
+        if mean >= 0.5 || within < 0.995 {
+            keep(&format!("moving_{seconds}"), &frame, &expected);
+        }
+        assert!(mean < 0.5, "at {seconds} s: mean difference {mean:.4} codes, at most 0.5");
+        assert!(within >= 0.995, "at {seconds} s: {within:.5} within 6 codes, at least 0.995");
+    }
+    gpu.go_to(None);
+    let found = Comparison::of(&gpu.render(&own).unwrap(), &source.picture).unwrap();
+    assert!(found.max_code_difference <= 1, "still again, {} codes off", found.max_code_difference);
+}
+
+fn trunk() -> Sway {
+    Sway {
+        kind: SwayKind::Trunk,
+        root: None,
+        tip: None,
+        frequency_hz: None,
+        damping: None,
+        amplitude: Some(0.02),
+        period_seconds: None,
+        seed: None,
+    }
+}
+
+fn floating() -> Floating {
+    Floating {
+        draft: 0.2,
+        length: None,
+        beam: None,
+        mass: None,
+        heave_damping: None,
+        roll_damping: None,
+        heave_period_seconds: None,
+        roll_period_seconds: None,
     }
 }
 

@@ -62,10 +62,10 @@ fn a_tour_that_leaves_takes_everything_with_it() {
     stage.wait("the tour's being ready", |stage| !stage.heard().ready.is_empty());
     stage.settle();
     let shown = stage.counts();
-    // Root, four parts, four depth passes; four meshes; records, three texture maps, the atlas.
+    // Root, four parts, four depth passes; four meshes; records, waves, three texture maps, the atlas.
     assert_eq!(
         [0, 1, 2].map(|i| shown[i] - before[i]),
-        [9, 4, 5],
+        [9, 4, 6],
         "entities, meshes, images of a shown tour"
     );
 

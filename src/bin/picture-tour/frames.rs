@@ -16,23 +16,26 @@ pub(crate) struct Frame {
     pub(crate) file: String,
     /// Where the camera stands and looks; `None` where the picture was taken from.
     pub(crate) pose: Option<CameraPose>,
+    /// How long after the tour's start it is; `None` for the still picture.
+    pub(crate) seconds: Option<f64>,
 }
 
 /// The frames that the arguments ask for; never none.
 pub(crate) fn planned(arguments: &RenderArguments, tour: &Tour) -> Result<Vec<Frame>, Failure> {
     let path = tour.path.as_ref().and_then(tour::CameraPath::way);
+    let moving = |seconds: f64| (!arguments.still).then_some(seconds);
     if let Some(file) = &arguments.views {
         let views = views::read(file)?.into_iter();
         return Ok(views
-            .map(|view| Frame { file: format!("{}.png", view.name), pose: Some(view.pose) })
+            .map(|view| Frame { file: format!("{}.png", view.name), pose: Some(view.pose), seconds: None })
             .collect());
     }
     if let Some(seconds) = arguments.at {
         let pose = path.map(|path| path.at(seconds));
-        return Ok(vec![Frame { file: format!("at_{seconds:.3}s.png"), pose }]);
+        return Ok(vec![Frame { file: format!("at_{seconds:.3}s.png"), pose, seconds: moving(seconds) }]);
     }
     if !arguments.path {
-        return Ok(vec![Frame { file: "first_view.png".to_owned(), pose: None }]);
+        return Ok(vec![Frame { file: "first_view.png".to_owned(), pose: None, seconds: None }]);
     }
     let Some(path) = path else {
         return Err(Failure::CannotRun(
@@ -47,9 +50,13 @@ pub(crate) fn planned(arguments: &RenderArguments, tour: &Tour) -> Result<Vec<Fr
             arguments.fps
         ))
     })?;
-    let frame = |index: u32| Frame {
-        file: format!("frame_{index:05}.png"),
-        pose: Some(path.at(f64::from(index) / f64::from(arguments.fps))),
+    let frame = |index: u32| {
+        let seconds = f64::from(index) / f64::from(arguments.fps);
+        Frame {
+            file: format!("frame_{index:05}.png"),
+            pose: Some(path.at(seconds)),
+            seconds: moving(seconds),
+        }
     };
     Ok(range.map(frame).collect())
 }

@@ -8,6 +8,7 @@ use bevy_picture_tour::assemble::AssembledTour;
 use bevy_picture_tour::camera::PinholeCamera;
 use bevy_picture_tour::headless::HeadlessError;
 use bevy_picture_tour::headless::HeadlessTour;
+use bevy_picture_tour::motion::Simulation;
 use bevy_picture_tour::picture::Picture;
 use bevy_picture_tour::picture::color::linear_from_srgb3;
 use bevy_picture_tour::picture::color::srgb_from_linear3;
@@ -24,7 +25,7 @@ pub(crate) enum Renderer {
     /// On the graphics card, `side` x `side` times as many pixels as asked for, averaged.
     Gpu { tour: Box<HeadlessTour>, taken_by: PinholeCamera, side: u32 },
     /// On the processor, by the definition of right.
-    Reference { tour: Arc<AssembledTour>, samples: u32 },
+    Reference { tour: Arc<AssembledTour>, motion: Box<Simulation>, samples: u32 },
 }
 
 impl Renderer {
@@ -39,7 +40,10 @@ impl Renderer {
     ) -> Result<Self, Failure> {
         let side = if reference { 1 } else { side_of(samples, size)? };
         let built = opened.assemble(stop)?;
-        let by_reference = |tour| Ok(Self::Reference { tour, samples });
+        let by_reference = |tour: Arc<AssembledTour>| {
+            let (motion, _) = Simulation::new(opened.asset.tour(), &tour.scene);
+            Ok(Self::Reference { tour, motion: Box::new(motion), samples })
+        };
         if reference {
             return by_reference(built);
         }
@@ -67,18 +71,29 @@ impl Renderer {
         }
     }
 
-    /// Draws what `camera` sees; its frame has the size that the renderer was made for.
-    pub(crate) fn render(&mut self, camera: &PinholeCamera) -> Result<Picture, Failure> {
+    /// Draws what `camera` sees so many seconds after the tour's start, or in the still picture; its frame has the size that the renderer was made for.
+    pub(crate) fn render(
+        &mut self,
+        camera: &PinholeCamera,
+        seconds: Option<f64>,
+    ) -> Result<Picture, Failure> {
         match self {
             Self::Gpu { tour, side, .. } => {
+                tour.go_to(seconds);
                 let intrinsics = camera.intrinsics.scaled_to(camera.intrinsics.size * *side);
                 let large = tour
                     .render(&PinholeCamera { intrinsics, pose: camera.pose })
                     .map_err(|error| failure("the frame", &error))?;
                 averaged(large, *side)
             }
-            Self::Reference { tour, samples } => {
-                Ok(Reference::new(&tour.scene, &tour.maps).render(camera, *samples))
+            Self::Reference { tour, motion, samples } => {
+                let reference = Reference::new(&tour.scene, &tour.maps);
+                let Some(seconds) = seconds else { return Ok(reference.render(camera, *samples)) };
+                motion.go_to(seconds);
+                let water = motion.water();
+                let moment = motion.moment();
+                let moving = reference.with_water(&water).with_motion(&moment.placements, &moment.sways);
+                Ok(moving.render(camera, *samples))
             }
         }
     }

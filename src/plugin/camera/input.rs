@@ -28,12 +28,15 @@ const TURN_PER_SECOND: f64 = 0.6;
 /// A stick nearer to its middle than this rests.
 const DEAD_ZONE: f32 = 0.12;
 
-/// What the devices ask for in this frame.
-pub(super) fn wish(devices: &Devices, seconds: f64) -> VisitorWish {
+/// What the devices ask for in this frame; a pointer that stirs the water asks for nothing.
+pub(super) fn wish(devices: &Devices, stirs: bool, seconds: f64) -> VisitorWish {
     let mut wish = VisitorWish::default();
     keyboard(devices, &mut wish);
     pointer(devices, &mut wish);
     touch(devices, &mut wish);
+    if stirs {
+        wish.look = default();
+    }
     for gamepad in &devices.gamepads {
         stick(gamepad, seconds, &mut wish);
     }

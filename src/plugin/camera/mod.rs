@@ -15,6 +15,7 @@ use bevy::prelude::*;
 use bevy::transform::helper::TransformHelper;
 
 use super::SolvedTour;
+use super::stir::Stirring;
 use crate::camera::CameraPath;
 use crate::camera::CameraPose;
 use crate::camera::Fit;
@@ -125,10 +126,11 @@ impl TourCameraState {
 /// Reads the devices into each visitor's wish.
 pub(super) fn read_devices(
     devices: input::Devices,
+    stirring: Res<Stirring>,
     time: Res<Time>,
     mut cameras: Query<(&TourCamera, &mut TourCameraState)>,
 ) {
-    let seen = input::wish(&devices, time.delta_secs_f64());
+    let seen = input::wish(&devices, stirring.is_active(), time.delta_secs_f64());
     for (camera, mut state) in &mut cameras {
         let asked = state.wish.go_home;
         state.wish = if camera.listens { seen } else { VisitorWish::default() };

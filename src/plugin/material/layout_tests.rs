@@ -38,6 +38,7 @@ fn the_tour_uniform_reaches_the_shader_unmoved() {
         layer: field(5.0),
         flags: field(6.0),
         water: field(7.0),
+        ripples: field(8.0),
     };
     let mut buffer = UniformBuffer::new(Vec::<u8>::new());
     buffer.write(&sent).unwrap();
@@ -52,7 +53,8 @@ fn the_tour_uniform_reaches_the_shader_unmoved() {
         .iter()
         .map(|(name, at)| (name.as_str(), [0, 4, 8, 12].map(|more| number(at + more))))
         .collect();
-    let names = ["picture_from_x", "picture_from_y", "picture_from_z", "eye", "layer", "flags", "water"];
+    let names =
+        ["picture_from_x", "picture_from_y", "picture_from_z", "eye", "layer", "flags", "water", "ripples"];
     let expected: Vec<(&str, [f32; 4])> =
         names.into_iter().zip(1_u8..).map(|(name, i)| (name, field(f32::from(i)).to_array())).collect();
     assert_eq!(read, expected, "what WGSL reads is not what Rust sends");
@@ -60,10 +62,15 @@ fn the_tour_uniform_reaches_the_shader_unmoved() {
 
 #[test]
 fn the_shader_binds_what_the_material_sends() {
-    // The bindings of `AsBindGroup`: 0 the uniform, 1 the records, 2 and 3 a texture and its sampler.
+    // The bindings of `AsBindGroup`: 0 the uniform, 1 the records, 2 and 3 a texture and its sampler, 4 the waves.
     let source = include_str!("part.wgsl");
-    let bindings =
-        ["var<uniform> tour: TourUniform", "var records: texture_2d<f32>", "texture_2d<f32>", "sampler"];
+    let bindings = [
+        "var<uniform> tour: TourUniform",
+        "var records: texture_2d<f32>",
+        "texture_2d<f32>",
+        "sampler",
+        "var waves: texture_2d<f32>",
+    ];
     for (number, what) in bindings.into_iter().enumerate() {
         let binding = format!("@binding({number}) ");
         let line = source.lines().find(|line| line.contains(&binding));

@@ -49,6 +49,7 @@ pub(super) struct TourUniform {
     layer: Vec4,
     flags: Vec4,
     water: Vec4,
+    ripples: Vec4,
 }
 
 /// Coverage up to this is dropped in a depth pass.
@@ -73,6 +74,7 @@ impl TourUniform {
             layer,
             flags: Vec4::new(f32::from(u8::from(infinite)), -1.0, scale, camera.intrinsics.focal_px as f32),
             water: Vec3::from(tint.own_color()).extend(tint.strength),
+            ripples: Vec4::new(tint.slope, 0.0, 0.0, 0.0),
         }
     }
 
@@ -95,6 +97,9 @@ pub(super) struct TourMaterial {
     #[texture(2)]
     #[sampler(3)]
     pub(super) map: Handle<Image>,
+    /// The moving water; only the water's part reads it.
+    #[texture(4, sample_type = "float", filterable = false)]
+    pub(super) waves: Handle<Image>,
     pub(super) policy: ColorPolicy,
     pub(super) depth_only: bool,
     pub(super) water: bool,
@@ -175,7 +180,9 @@ impl Material for TourMaterial {
 
 /// Registers the material and its shaders.
 pub(super) fn plugin(app: &mut App) {
+    load_shader_library!(app, "sway.wgsl");
     load_shader_library!(app, "tour.wgsl");
+    load_shader_library!(app, "waves.wgsl");
     load_shader_library!(app, "vertex.wgsl");
     load_shader_library!(app, "finish.wgsl");
     load_shader_library!(app, "water.wgsl");

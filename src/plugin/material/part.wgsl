@@ -14,6 +14,8 @@
 // The component's texture map, or all reflection maps in one.
 @group(#{MATERIAL_BIND_GROUP}) @binding(2) var map: texture_2d<f32>;
 @group(#{MATERIAL_BIND_GROUP}) @binding(3) var map_sampler: sampler;
+// Waves of the wind and ripples.
+@group(#{MATERIAL_BIND_GROUP}) @binding(4) var waves: texture_2d<f32>;
 
 @vertex
 fn vertex(vertex: Vertex) -> TourVertex {
@@ -28,7 +30,7 @@ fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
         return vec4(1.0);
     }
     let ray = fragment_ray(records, in.row, in.position.xy);
-    return finish(vec4(mirrored(tour, records, map, map_sampler, in.row, ray), 1.0));
+    return finish(vec4(mirrored(tour, records, map, map_sampler, waves, in.row, ray), 1.0));
 #else
     let ray = fragment_ray(records, in.row, in.position.xy);
     let found = component(records, i32(tour.eye.w));

@@ -7,9 +7,12 @@
 #define_import_path bevy_picture_tour::tour
 
 #import bevy_pbr::mesh_view_bindings::view
+#import bevy_picture_tour::sway::{SwayMode, SwayRecord, rest_point}
 
 const VIEW_ROWS: i32 = 8;
 const COMPONENT_ROW: i32 = 8;
+const SWAY_ROW: i32 = 9;
+const TEXELS_PER_SWAY: i32 = 8;
 const TEXELS_PER_COMPONENT: i32 = 5;
 const FIRST_PLACEMENT: i32 = 24;
 const TEXELS_PER_PLACEMENT: i32 = 3;
@@ -34,6 +37,8 @@ struct TourUniform {
     flags: vec4<f32>,
     // The water's own color (linear light), and how closely its reflectance follows Fresnel's law, 0 to 1.
     water: vec4<f32>,
+    // x: root mean square slope of the ripples in the picture itself.
+    ripples: vec4<f32>,
 }
 
 struct Component {
@@ -62,7 +67,9 @@ struct Meeting {
     // Along the ray; negative for a miss.
     distance: f32,
     point: vec3<f32>,
-    // The point of the resting component that is there.
+    // Where that is on the component: along and up a wall, x and z of a level.
+    place: vec2<f32>,
+    // The point that is there when nothing moves.
     rest: vec3<f32>,
 }
 
@@ -132,27 +139,45 @@ fn placed(found: Component, at: Placement, rest: vec3<f32>) -> vec3<f32> {
     return at.origin + dot(rest.xz - found.line.xy, found.line.zw) * at.along + rest.y * at.up;
 }
 
+// Which point of a wall, along and up, is seen at a place of it when its plant sways.
+fn unbent(records: texture_2d<f32>, index: i32, place: vec2<f32>) -> vec2<f32> {
+    let first = index * TEXELS_PER_SWAY;
+    let size = textureLoad(records, vec2(first + 1, SWAY_ROW), 0);
+    if size.z == 0.0 {
+        return place;
+    }
+    var rows: array<vec4<f32>, 6>;
+    for (var i = 0; i < 6; i++) {
+        rows[i] = textureLoad(records, vec2(first + 2 + i, SWAY_ROW), 0);
+    }
+    let sway = SwayRecord(
+        textureLoad(records, vec2(first, SWAY_ROW), 0),
+        size,
+        SwayMode(rows[0], rows[1]),
+        SwayMode(rows[2], rows[3]),
+        SwayMode(rows[4], rows[5]),
+    );
+    return rest_point(sway, place);
+}
+
 // Where a ray meets the component's unbounded plane; `inside` tells whether that is in its rectangle.
 fn meet(records: texture_2d<f32>, row: i32, index: i32, found: Component, ray: Ray) -> Meeting {
     if found.kind == LEVEL {
         let distance = (found.height - ray.origin.y) / ray.direction.y;
         let point = ray.origin + distance * ray.direction;
-        return Meeting(distance, point, point);
+        return Meeting(distance, point, point.xz, point);
     }
     let at = placement(records, row, index);
     let normal = cross(at.along, at.up);
     let distance = dot(normal, at.origin - ray.origin) / dot(normal, ray.direction);
     let point = ray.origin + distance * ray.direction;
-    let s = dot(point - at.origin, at.along);
-    let y = dot(point - at.origin, at.up);
-    return Meeting(distance, point, vec3(found.line.x + s * found.line.z, y, found.line.y + s * found.line.w));
+    let place = vec2(dot(point - at.origin, at.along), dot(point - at.origin, at.up));
+    let rest = unbent(records, index, place);
+    let line = found.line.xy + rest.x * found.line.zw;
+    return Meeting(distance, point, place, vec3(line.x, rest.y, line.y));
 }
 
-fn inside(found: Component, rest: vec3<f32>) -> bool {
-    var place = vec2(dot(rest.xz - found.line.xy, found.line.zw), rest.y);
-    if found.kind == LEVEL {
-        place = rest.xz;
-    }
+fn inside(found: Component, place: vec2<f32>) -> bool {
     return all(place >= found.extent.xz) && all(place <= found.extent.yw);
 }
 

@@ -4,14 +4,19 @@
 
 #define_import_path bevy_picture_tour::water
 
+#import bevy_pbr::mesh_view_bindings::view
 #import bevy_picture_tour::tour::{
     Component, Ray, TourUniform, component, eye_of, inside, level_of, meet, mirror, see, see_far, sharp, snap, INFINITE,
+    MIP_LEVELS,
 }
+#import bevy_picture_tour::waves::surface
 
 // Less light than this is left behind a layer: half a display code cannot change any more.
 const OPAQUE: f32 = 1.0 / 8192.0;
 // A mirrored ray climbs at least this steeply.
 const LEAST_CLIMB: f32 = 1e-5;
+// Texels that a mip level read for blur stands for, per standard deviation of the blur.
+const BLUR_TEXELS: f32 = 0.7;
 
 // A reflection map at a picture point; its border is prolonged.
 fn sample_map(maps: texture_2d<f32>, filtering: sampler, found: Component, at: vec2<f32>, level: f32) -> vec4<f32> {
@@ -26,13 +31,13 @@ fn fresnel(grazing: f32) -> f32 {
     return 0.02 + 0.98 * pow(1.0 - clamp(grazing, 0.0, 1.0), 5.0);
 }
 
-// A texel seen in the water, up from which `was` goes to the picture's camera, for a view's camera to which `is` goes.
+// A texel seen in the water, up from which `was` goes to the picture's camera, for another grazing angle (its sine).
 // Twin of `Tint::at_angle`.
-fn at_angle(tour: TourUniform, texel: vec4<f32>, was: vec3<f32>, is: vec3<f32>) -> vec4<f32> {
+fn at_angle(tour: TourUniform, texel: vec4<f32>, was: vec3<f32>, grazing: f32) -> vec4<f32> {
     if tour.water.w <= 0.0 {
         return texel;
     }
-    let change = fresnel(is.y / length(is)) / fresnel(was.y / length(was));
+    let change = fresnel(grazing) / fresnel(was.y / length(was));
     let ratio = clamp(pow(change, tour.water.w), 0.5, 2.0);
     return vec4(max(tour.water.rgb + ratio * (texel.rgb - tour.water.rgb), vec3(0.0)), texel.a);
 }
@@ -42,10 +47,22 @@ struct Hit {
     texel: vec4<f32>,
 }
 
-// The water's view: what every look at a reflection map needs.
+// What every look at a reflection map needs.
 struct Look {
     row: i32,
     eye: vec3<f32>,
+    // Sine of the angle between the camera's ray and the surface.
+    grazing: f32,
+    // Meters from the camera to the water.
+    to_water: f32,
+    // Standard deviation of the slopes that the pixel does not resolve.
+    blur: f32,
+}
+
+// The mip level as blurred as unresolved waves make what lies behind the water by this share of the way.
+fn blur_level(tour: TourUniform, look: Look, share: f32, scale: f32) -> f32 {
+    let deviation = 2.0 * tour.flags.w * look.blur * share * scale;
+    return min(log2(max(BLUR_TEXELS * deviation, 1.0)), MIP_LEVELS);
 }
 
 // Where a mirrored ray meets a component above the water; a negative distance for a miss.
@@ -63,15 +80,19 @@ fn mirror_hit(
         return Hit(-1.0, vec4(0.0));
     }
     let met = meet(records, look.row, index, found, up);
-    if !(met.distance > 0.0) || !(met.distance < 1e9) || met.point.y < 0.0 || !inside(found, met.rest) {
+    if !(met.distance > 0.0) || !(met.distance < 1e9) || met.point.y < 0.0 || !inside(found, met.place) {
         return Hit(-1.0, vec4(0.0));
     }
     let image = mirror(met.rest);
     let away = mirror(met.point) - look.eye;
     let seen = see(tour, image);
-    let level = level_of(tour, records, look.row, away, seen.z, found.atlas.z);
+    let share = met.distance / (met.distance + look.to_water);
+    let level = max(
+        level_of(tour, records, look.row, away, seen.z, found.atlas.z),
+        blur_level(tour, look, share, found.atlas.z),
+    );
     let texel = sample_map(maps, filtering, found, seen.xy, level);
-    return Hit(met.distance, at_angle(tour, texel, tour.eye.xyz - image, -away));
+    return Hit(met.distance, at_angle(tour, texel, tour.eye.xyz - image, look.grazing));
 }
 
 struct Light {
@@ -91,16 +112,33 @@ fn mirrored(
     records: texture_2d<f32>,
     maps: texture_2d<f32>,
     filtering: sampler,
+    waves: texture_2d<f32>,
     row: i32,
     ray: Ray,
 ) -> vec3<f32> {
-    let water = ray.origin - ray.origin.y / ray.direction.y * ray.direction;
-    let up = Ray(
-        vec3(water.x, 0.0, water.z),
-        vec3(ray.direction.x, max(-ray.direction.y, LEAST_CLIMB), ray.direction.z),
-    );
+    var to_water = -ray.origin.y / ray.direction.y;
+    let focal = 0.5 * view.main_pass_viewport.w * view.clip_from_view[1][1];
+    // Along the view a pixel covers this many meters of the water.
+    let footprint = to_water / (focal * -ray.direction.y);
+    var at = ray.origin + to_water * ray.direction;
+    var water = surface(records, waves, at.xz, footprint);
+    if water.height != 0.0 {
+        // One step towards where the ray meets the displaced surface.
+        to_water = (min(water.height, 0.5 * ray.origin.y) - ray.origin.y) / ray.direction.y;
+        at = ray.origin + to_water * ray.direction;
+        water = surface(records, waves, at.xz, footprint);
+    } else {
+        at.y = 0.0;
+    }
+    let normal = normalize(vec3(-water.slope.x, 1.0, -water.slope.y));
+    let grazing = -dot(ray.direction, normal);
+    var direction = ray.direction + 2.0 * grazing * normal;
+    direction.y = max(direction.y, LEAST_CLIMB);
+    let up = Ray(at, direction);
+    // The picture's own ripples are in its maps already.
+    let blur = sqrt(max(water.roughness - tour.ripples.x * tour.ripples.x, 0.0));
 
-    let look = Look(row, eye_of(records, row));
+    let look = Look(row, eye_of(records, row), grazing, to_water, blur);
     var light = Light(vec3(0.0), 1.0);
     let count = i32(textureLoad(records, vec2(5, row), 0).w);
     let ground_index = i32(textureLoad(records, vec2(6, row), 0).w);
@@ -129,6 +167,7 @@ fn mirrored(
     let last = component(records, 0);
     var away = mirror(up.direction);
     var was = up.direction;
+    var share = 1.0;
     var seen = see_far(tour, away);
     if last.kind != INFINITE {
         let met = meet(records, row, 0, last, up);
@@ -137,10 +176,14 @@ fn mirrored(
             seen = see(tour, image);
             was = tour.eye.xyz - image;
             away = mirror(met.point) - look.eye;
+            share = met.distance / (met.distance + to_water);
         }
     }
-    let level = level_of(tour, records, row, away, seen.z, last.atlas.z);
-    let texel = at_angle(tour, sample_map(maps, filtering, last, seen.xy, level), was, -away);
+    let level = max(
+        level_of(tour, records, row, away, seen.z, last.atlas.z),
+        blur_level(tour, look, share, last.atlas.z),
+    );
+    let texel = at_angle(tour, sample_map(maps, filtering, last, seen.xy, level), was, grazing);
     light = behind(light, vec4(texel.rgb, 1.0));
     return light.color;
 }

@@ -1,3 +1,5 @@
+//! Footprints: closed, of the right area, rasterized to the right share of cells.
+
 use std::f64::consts::FRAC_PI_2;
 
 use super::*;

@@ -32,6 +32,15 @@ impl Ripples {
         self.interpolate(xz, |cell, shown| shown * self.slope(cell))
     }
 
+    /// Whether there is water in the cell at (x, z); false outside the grid and for what is no number.
+    #[must_use]
+    pub fn is_water(&self, xz: DVec2) -> bool {
+        let place = (self.grid.to_cells(xz) + 0.5).floor();
+        let side = self.grid.size as f64;
+        let is_inside = (0.0..side).contains(&place.x) && (0.0..side).contains(&place.y);
+        is_inside && self.mask[place.y as usize * self.grid.size + place.x as usize] > 0.0
+    }
+
     /// Height (meters), slope along x, slope along z, mask, of every cell, in rows along x. Computed when asked for, and kept
     /// until something moves.
     pub fn texels(&mut self) -> &[[f32; 4]] {

@@ -88,14 +88,29 @@ impl Ripples {
         if !pressure.is_finite() || pressure == 0.0 || covered.is_empty() {
             return;
         }
-        let greatest = DENSITY * GRAVITY * self.limits.height;
-        let fall = self.options.step_seconds * pressure.clamp(-greatest, greatest) / DENSITY;
+        let fall = self.fall(pressure);
         for (cell, weight) in covered.iter() {
             // Weights of a larger grid may reach beyond this one.
             let Some(mask) = self.mask.get(cell) else { break };
-            self.potential[cell] -= fall as f32 * weight * mask;
+            self.potential[cell] -= fall * weight * mask;
         }
         self.stir();
+    }
+
+    /// The same on one cell that is wholly covered, by its index. A cell beyond the grid takes nothing.
+    pub fn press_cell(&mut self, cell: usize, pressure: f64) {
+        let Some(&mask) = self.mask.get(cell) else { return };
+        if !pressure.is_finite() || pressure == 0.0 {
+            return;
+        }
+        self.potential[cell] -= self.fall(pressure) * mask;
+        self.stir();
+    }
+
+    /// By how much a pressure lowers the potential in a step, m²/s.
+    fn fall(&self, pressure: f64) -> f32 {
+        let greatest = DENSITY * GRAVITY * self.limits.height;
+        (self.options.step_seconds * pressure.clamp(-greatest, greatest) / DENSITY) as f32
     }
 
     /// Adds water (or takes it, below 0) during the next step, spread over what is covered: `rate` in m³/s.

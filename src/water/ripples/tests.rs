@@ -1,3 +1,5 @@
+//! Ripples rest, travel, turn back at walls and die away as they must.
+
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, Vec2};
@@ -407,6 +409,42 @@ fn waves_stay_where_they_are_when_the_grid_moves() {
     }
     ripples.follow(i32::MAX, i32::MIN, &mask).unwrap();
     assert!(ripples.height.iter().all(|height| *height == 0.0));
+}
+
+#[test]
+fn a_cell_is_pressed_as_what_covers_it_wholly_is() {
+    let corner = DVec2::splat(0.5);
+    let square = [DVec2::ZERO, DVec2::new(0.5, 0.0), corner, DVec2::new(0.0, 0.5)];
+    let [mut covered, mut alone] = [open(DEEP, 32, 0.5, 5.0), open(DEEP, 32, 0.5, 5.0)];
+    let cover = Footprint::from_outline(square.to_vec()).unwrap().cover(covered.grid());
+    covered.press(&cover, 300.0);
+    alone.press_cell(16 * 32 + 16, 300.0);
+    assert!(alone.potential[16 * 32 + 16] < 0.0);
+    assert_eq!(covered.potential, alone.potential);
+    let mut still = open(DEEP, 32, 0.5, 5.0);
+    for (cell, pressure) in [(32 * 32, 300.0), (7, f64::NAN), (7, 0.0)] {
+        still.press_cell(cell, pressure);
+        assert!(still.is_still(), "{pressure} Pa on cell {cell}");
+    }
+}
+
+#[test]
+fn it_says_where_water_is() {
+    let grid = RippleGrid::around(DVec2::ZERO, 0.5, 16);
+    let mask = walled(16, |column, _| column < 8);
+    let ripples = Ripples::new(grid, options(DEEP, 5.0), &mask).unwrap();
+    for (x, z, water) in [
+        (0.01, 0.0, true),
+        (-0.01, 0.0, false),
+        (3.99, -3.99, true),
+        (4.01, 0.0, false),
+        (1.0, 4.01, false),
+        (1.0, -4.01, false),
+        (f64::NAN, 0.0, false),
+        (1.0, f64::INFINITY, false),
+    ] {
+        assert_eq!(ripples.is_water(DVec2::new(x, z)), water, "at ({x}, {z})");
+    }
 }
 
 #[test]

@@ -1,3 +1,5 @@
+//! The sea has the height, slope and loop that its spectrum asks for.
+
 use std::f64::consts::TAU;
 
 use super::super::GRAVITY;

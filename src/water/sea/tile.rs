@@ -56,6 +56,41 @@ impl SeaTile {
         self.size
     }
 
+    /// Side of a texel of level 0, meters.
+    #[must_use]
+    pub fn texel(&self) -> f64 {
+        self.size / TEXELS as f64
+    }
+
+    /// A texel by interpolation at (x, z) in meters and between two mip levels; level 0 at most, the coarsest at least. Twin
+    /// of `sea_mean` in `waves.wgsl`.
+    #[must_use]
+    pub fn mean(&self, xz: DVec2, level: f32) -> [f32; 4] {
+        let level = level.clamp(0.0, (LEVELS - 1) as f32);
+        let (low, high) = (level.floor() as usize, level.ceil() as usize);
+        let share = level.fract();
+        let [low, high] = [low, high].map(|level| self.mean_of_level(xz, level));
+        std::array::from_fn(|i| low[i] + share * (high[i] - low[i]))
+    }
+
+    fn mean_of_level(&self, xz: DVec2, level: usize) -> [f32; 4] {
+        let count = TEXELS >> level;
+        let start: usize = (0..level).map(|level| (TEXELS >> level).pow(2)).sum();
+        // Centers: see the layout above.
+        let place = (xz / self.size).map(|turns| turns.rem_euclid(1.0)) * count as f64
+            + 0.5 / f64::from(1_u32 << level)
+            - 0.5;
+        let corner = place.floor();
+        let part = (place - corner).as_vec2();
+        let texel = |dx: i64, dz: i64| {
+            let [column, row] =
+                [corner.x as i64 + dx, corner.y as i64 + dz].map(|i| i.rem_euclid(count as i64) as usize);
+            self.texels[start + row * count + column]
+        };
+        let mix = |a: [f32; 4], b: [f32; 4], t: f32| std::array::from_fn(|i| a[i] + t * (b[i] - a[i]));
+        mix(mix(texel(0, 0), texel(1, 0), part.x), mix(texel(0, 1), texel(1, 1), part.x), part.y)
+    }
+
     /// Height (meters), slope along x, slope along z, potential at the surface (m²/s): all mip levels one after the other, 128 × 128 texels first,
     /// in rows along x.
     #[must_use]

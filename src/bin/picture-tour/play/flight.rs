@@ -3,11 +3,11 @@
 use bevy::camera_controller::free_camera::{FreeCamera, FreeCameraState};
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
-use bevy_picture_tour::plugin::{Guide, SolvedTour, TourCamera, TourCameraState};
+use bevy_picture_tour::plugin::{Guide, SolvedTour, TourCamera, TourCameraState, TourMotion};
 
 use super::overlay::Overlay;
 
-/// `H` help, `P` path, `F` free flight, `Esc` quit; an interface under the pointer has it to itself.
+/// `H` help, `V` weather, `Space` pause, `P` path, `F` free flight, `Esc` quit; an interface under the pointer has it to itself.
 pub(super) fn read_keys(
     keys: Res<ButtonInput<KeyCode>>,
     wants: Res<EguiWantsInput>,
@@ -21,6 +21,7 @@ pub(super) fn read_keys(
         Option<&mut FreeCameraState>,
     )>,
     tours: Query<&SolvedTour>,
+    mut motions: Query<&mut TourMotion>,
     mut commands: Commands,
     mut exit: MessageWriter<AppExit>,
 ) {
@@ -29,6 +30,15 @@ pub(super) fn read_keys(
     }
     if keys.just_pressed(KeyCode::KeyH) || keys.just_pressed(KeyCode::F1) {
         overlay.help = !overlay.help;
+    }
+    if keys.just_pressed(KeyCode::KeyV) {
+        overlay.weather = !overlay.weather;
+    }
+    if keys.just_pressed(KeyCode::Space) {
+        for mut motion in &mut motions {
+            motion.paused = !motion.paused;
+            overlay.say(if motion.paused { "Paused. Space goes on." } else { "" });
+        }
     }
     for (entity, mut camera, mut state, mut transform, free) in &mut cameras {
         let listens = !wants.wants_any_pointer_input();

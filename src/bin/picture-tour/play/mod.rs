@@ -4,6 +4,7 @@ mod display;
 mod flight;
 mod overlay;
 mod tours;
+mod weather;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -77,7 +78,7 @@ pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
             (flight::read_keys, tours::take_dropped, tours::watch, tours::take_reread)
                 .before(PictureTourSystems::Input),
         )
-        .add_systems(EguiPrimaryContextPass, overlay::show)
+        .add_systems(EguiPrimaryContextPass, (overlay::show, weather::show))
         .add_observer(tours::ready)
         .add_observer(tours::failed)
         .run();

@@ -8,6 +8,8 @@ use bevy_egui::{EguiContexts, egui};
 pub(super) struct Overlay {
     /// Whether the keys are shown.
     pub help: bool,
+    /// Whether the weather can be changed.
+    pub weather: bool,
     message: String,
     /// Problems stay until they are mended.
     pub problem: Option<String>,
@@ -17,13 +19,16 @@ pub(super) struct Overlay {
 /// How long a message stays, seconds.
 const MESSAGE_SECONDS: f32 = 5.0;
 
-const KEYS: [(&str, &str); 9] = [
-    ("drag, one finger", "look around and lean"),
+const KEYS: [(&str, &str); 12] = [
+    ("drag, one finger", "look around and lean; on the water, stir it"),
+    ("right drag", "look around, on the water too"),
     ("wheel, pinch", "step in or back"),
     ("W A S D, arrows", "walk"),
     ("Q E, page keys", "down, up"),
     ("Home", "glide back to where the picture was taken"),
     ("P", "the tour's own path"),
+    ("Space", "stop everything, and go on"),
+    ("V", "wind and weather"),
     ("F", "free flight"),
     ("drop a .tour.ron", "open another tour"),
     ("H, Esc", "these keys; quit"),

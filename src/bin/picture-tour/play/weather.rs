@@ -1,0 +1,42 @@
+//! The weather at hand: a panel that lets the wind change.
+
+use bevy::prelude::*;
+use bevy_egui::{EguiContexts, egui};
+use bevy_picture_tour::plugin::TourMotion;
+
+use super::overlay::Overlay;
+
+/// Fastest wind that the panel offers, m/s: a storm.
+const FASTEST: f64 = 25.0;
+
+pub(super) fn show(
+    mut contexts: EguiContexts,
+    overlay: Res<Overlay>,
+    mut tours: Query<&mut TourMotion>,
+) -> Result {
+    if !overlay.weather {
+        return Ok(());
+    }
+    let context = contexts.ctx_mut()?;
+    let frame = egui::Frame::popup(&context.global_style()).fill(egui::Color32::from_black_alpha(205));
+    egui::Area::new("weather".into()).anchor(egui::Align2::RIGHT_TOP, [-12.0, 12.0]).show(context, |ui| {
+        frame.show(ui, |ui| {
+            ui.visuals_mut().override_text_color = Some(egui::Color32::WHITE);
+            for mut motion in &mut tours {
+                let mut wind = motion.wind();
+                let before = wind;
+                ui.add(egui::Slider::new(&mut wind.speed, 0.0..=FASTEST).text("wind, m/s"));
+                ui.add(egui::Slider::new(&mut wind.direction_deg, -180.0..=180.0).text("blows towards, °"));
+                ui.add(egui::Slider::new(&mut wind.gusts, 0.0..=1.0).text("gusts"));
+                if wind != before {
+                    motion.set_wind(&wind);
+                }
+                let mut still = motion.still;
+                if ui.checkbox(&mut still, "the still picture").changed() {
+                    motion.still = still;
+                }
+            }
+        });
+    });
+    Ok(())
+}

@@ -1,0 +1,147 @@
+//! A body of the tour that floats or sails, and where it brings its wall.
+//!
+//! One at anchor and the water act on each other. One on a course presses its wake into the water and follows the waves,
+//! its own wake's too, but does not press as a floating one does: nothing then feeds waves that travel with it.
+
+use glam::{DVec2, DVec3};
+
+use crate::picture::PicturePoint;
+use crate::scene::Placement;
+use crate::scene::TourScene;
+use crate::scene::Wall;
+use crate::tour::Course;
+use crate::tour::Floating;
+use crate::tour::Object;
+use crate::water::body::AtEnd;
+use crate::water::body::Berth;
+use crate::water::body::BodyPose;
+use crate::water::body::CourseError;
+use crate::water::body::FloatingBody;
+use crate::water::body::Hull;
+use crate::water::body::PressurePatch;
+use crate::water::body::SailedCourse;
+use crate::water::body::Sailing;
+use crate::water::body::Wake;
+use crate::water::body::WaterHeight;
+use crate::water::body::rest_heading;
+use crate::water::ripples::Ripples;
+
+/// Share of the water's answer that a body at anchor presses on it.
+///
+/// The rest swings along with the hull already, as its added mass and damping (notes §7.3). With all of it a hull on waves
+/// four times as long swings 1.3 times as high as it does by itself, for it feels its own waves as a softer spring; with a
+/// quarter, 1.1 times. With any share the two calm each other down: it only scales the energy of the body's waves.
+const ANSWER: f64 = 0.25;
+
+/// A body and its wall.
+#[derive(Clone, Debug)]
+pub(super) struct Vessel {
+    /// Its component in the scene.
+    pub(super) component: usize,
+    wall: Wall,
+    berth: Berth,
+    body: FloatingBody,
+    /// `None` at anchor.
+    course: Option<SailedCourse>,
+    wake: Wake,
+}
+
+impl Vessel {
+    /// A body at anchor where the picture shows it.
+    pub(super) fn anchored(
+        component: usize,
+        object: &Object,
+        floating: &Floating,
+        scene: &TourScene,
+        wall: &Wall,
+    ) -> Self {
+        let hull = Hull::new(floating, contact_length(object, scene, wall));
+        Self::new(component, wall, hull, None)
+    }
+
+    /// A body on a course, which comes back on it.
+    pub(super) fn sailing(
+        component: usize,
+        object: &Object,
+        course: &Course,
+        scene: &TourScene,
+        wall: &Wall,
+    ) -> Result<Self, CourseError> {
+        let length = contact_length(object, scene, wall);
+        let sailed = SailedCourse::new(course, length, AtEnd::default())?;
+        Ok(Self::new(component, wall, Hull::of_course(course, length), Some(sailed)))
+    }
+
+    fn new(component: usize, wall: &Wall, hull: Hull, course: Option<SailedCourse>) -> Self {
+        let first_heading = course.as_ref().map_or(0.0, |course| course.at(0.0).heading);
+        let berth = Berth { center: wall.point(0.0, 0.0), heading: rest_heading(wall.along, first_heading) };
+        Self { component, wall: *wall, berth, wake: Wake::new(&hull), body: FloatingBody::new(hull), course }
+    }
+
+    /// Whether it moves without waves, too.
+    pub(super) fn sails(&self) -> bool {
+        self.course.is_some()
+    }
+
+    /// Whether waves do not move it.
+    pub(super) fn is_at_rest(&self) -> bool {
+        self.body == FloatingBody::new(*self.body.hull())
+    }
+
+    /// Ends its motion on the waves.
+    pub(super) fn rest(&mut self) {
+        self.body = FloatingBody::new(*self.body.hull());
+    }
+
+    /// Takes it on by one step, to `seconds`.
+    pub(super) fn step(&mut self, seconds: f64, water: &impl WaterHeight) {
+        let Sailing { center, heading, .. } = self.way(seconds);
+        self.body.step(water, center, heading);
+    }
+
+    /// Presses on the water as it does at `seconds`.
+    pub(super) fn press(&self, seconds: f64, ripples: &mut Ripples) {
+        let Sailing { center, heading, speed } = self.way(seconds);
+        let patch = match &self.course {
+            None => {
+                let whole = self.body.pressure(center, heading);
+                PressurePatch { head: ANSWER * whole.head, tilt: ANSWER * whole.tilt, ..whole }
+            }
+            Some(_) => self.wake.pressure(center, heading, speed),
+        };
+        let grid = *ripples.grid();
+        patch.press(&grid, |cell, pressure| ripples.press_cell(cell, pressure));
+    }
+
+    /// How far it is from its rest at `seconds`, as its wall shows it.
+    pub(super) fn pose(&self, seconds: f64) -> BodyPose {
+        self.way(seconds).pose_on_waves(&self.berth, &self.body.pose())
+    }
+
+    /// Where a pose brings the wall; `None` when that is where it rests.
+    pub(super) fn placement(&self, pose: &BodyPose) -> Option<Placement> {
+        if *pose == BodyPose::default() {
+            return None;
+        }
+        let resting = self.wall.resting();
+        let origin = pose.moved(&self.berth, resting.origin);
+        let turned = |axis: DVec3| (pose.moved(&self.berth, resting.origin + axis) - origin).normalize();
+        Some(Placement { origin, along: turned(resting.along), up: turned(resting.up) })
+    }
+
+    fn way(&self, seconds: f64) -> Sailing {
+        let Berth { center, heading } = self.berth;
+        let anchored = Sailing { center: DVec2::new(center.x, center.z), heading, speed: 0.0 };
+        self.course.as_ref().map_or(anchored, |course| course.at(seconds))
+    }
+}
+
+/// Meters from foot to foot along an object's wall; not a number where a foot is not on it.
+fn contact_length(object: &Object, scene: &TourScene, wall: &Wall) -> f64 {
+    let along = |foot: PicturePoint| {
+        let ray = scene.camera.ray(foot);
+        wall.meet_plane(ray).map_or(f64::NAN, |t| wall.along_of(ray.at(t)))
+    };
+    let [left, right] = object.contact.map(along);
+    (right - left).abs()
+}

@@ -1,0 +1,128 @@
+//! What the water shows: the mirrored ray and the reflection maps it reads. Twin of `water.wgsl`.
+
+use glam::{DVec2, DVec3};
+
+use super::{Accumulated, Look, OPAQUE, Reference};
+use crate::camera::Ray;
+use crate::maps::MIP_LEVELS;
+use crate::maps::Mipmapped;
+use crate::scene::Role;
+use crate::scene::Surface;
+use crate::scene::mirror;
+
+/// A mirrored ray climbs at least this steeply; steep waves would send it under the water (notes §8.2).
+const LEAST_CLIMB: f64 = 1e-5;
+
+/// Texels that a mip level read for blur stands for, per standard deviation of the blur: it is round, real blur upright, so
+/// that less is right than the 1.5 of notes §8.4.
+const BLUR_TEXELS: f64 = 0.7;
+
+/// A mirrored ray.
+struct Up {
+    /// Its direction is of unit length.
+    ray: Ray,
+    /// Sine of the angle between the camera's ray and the surface.
+    grazing: f32,
+    /// Meters from the camera to the water.
+    to_water: f64,
+    /// Standard deviation of the slopes that the pixel does not resolve.
+    blur: f64,
+}
+
+impl Reference<'_> {
+    /// What the water shows to a ray that goes down to it.
+    pub(super) fn mirrored(&self, ray: Ray, look: &Look) -> [f32; 3] {
+        let incoming = ray.direction.normalize();
+        let to = |height: f64| Ray { direction: incoming, ..ray }.at((height - ray.origin.y) / incoming.y);
+        let mut at = to(0.0);
+        // Along the view a pixel covers this many meters of the water.
+        let footprint = at.distance(ray.origin) / (look.focal_px * -incoming.y);
+        let mut water = self.water.at(DVec2::new(at.x, at.z), footprint);
+        if water.height != 0.0 {
+            // One step towards where the ray meets the displaced surface (notes §8.3).
+            at = to(water.height.min(0.5 * ray.origin.y));
+            water = self.water.at(DVec2::new(at.x, at.z), footprint);
+        }
+        let normal = water.normal();
+        let mut direction = incoming - 2.0 * incoming.dot(normal) * normal;
+        direction.y = direction.y.max(LEAST_CLIMB);
+        let up = Up {
+            ray: Ray { origin: at, direction },
+            grazing: -incoming.dot(normal) as f32,
+            to_water: at.distance(ray.origin),
+            // The picture's own ripples are in its maps already.
+            blur: (water.roughness - f64::from(self.maps.tint.slope).powi(2)).max(0.0).sqrt(),
+        };
+
+        let mut light = Accumulated::default();
+        // The ground is level: which walls it hides depends on the ray.
+        let mut ground = self.scene.ground().and_then(|index| self.mirror_hit(index, &up, look));
+        for index in self.scene.walls_of(&look.arrangement.near_to_far) {
+            let Some((t, texel)) = self.mirror_hit(index, &up, look) else { continue };
+            if let Some((_, texel)) = ground.take_if(|(t_ground, _)| *t_ground < t) {
+                light.add(texel);
+            }
+            light.add(texel);
+            if light.left < OPAQUE {
+                return light.color;
+            }
+        }
+        if let Some((_, texel)) = ground {
+            light.add(texel);
+        }
+        let Some(last) = &self.maps.components[0].reflection else { return light.color };
+        let met = match self.scene.last_layer().surface {
+            Surface::Infinity => None,
+            surface => surface.meet(up.ray).map(|t| (t, mirror(up.ray.at(t)))),
+        };
+        let [r, g, b, _] = match met {
+            Some((t, point)) => self.read_mirrored(last, look, &up, t, point, point),
+            None => {
+                let away = mirror(up.ray.direction);
+                let (at, depth) = self.eye.see_far(away);
+                let level = look.level(self.scene, away, depth).max(self.blur_level(&up, 1.0));
+                self.at_angle(last.sample(at, level), up.ray.direction, up.grazing)
+            }
+        };
+        light.add([r, g, b, 1.0]);
+        light.color
+    }
+
+    /// Where a mirrored ray meets a component above the water, and the texel of its reflection map there.
+    fn mirror_hit(&self, index: usize, up: &Up, look: &Look) -> Option<(f64, [f32; 4])> {
+        let map = self.maps.components[index].reflection.as_ref()?;
+        let component = &self.scene.components[index];
+        debug_assert!(component.role != Role::LastLayer, "the last layer is met by all rays");
+        let met = self.meet(look, index, up.ray)?;
+        (met.point.y >= 0.0)
+            .then(|| (met.t, self.read_mirrored(map, look, up, met.t, mirror(met.point), mirror(met.rest.0))))
+    }
+
+    /// A reflection map at the mirror image `rest` that is seen at `point`, `t` meters behind the water.
+    fn read_mirrored(
+        &self,
+        map: &Mipmapped,
+        look: &Look,
+        up: &Up,
+        t: f64,
+        point: DVec3,
+        rest: DVec3,
+    ) -> [f32; 4] {
+        let (at, depth) = self.eye.see(rest);
+        let behind = t / (t + up.to_water);
+        let level = look.level(self.scene, point - look.position, depth).max(self.blur_level(up, behind));
+        self.at_angle(map.sample(at, level), self.scene.camera.pose.position - rest, up.grazing)
+    }
+
+    /// The mip level as blurred as unresolved waves make what lies `behind` the water by this share of the way.
+    fn blur_level(&self, up: &Up, behind: f64) -> f32 {
+        let deviation = 2.0 * self.scene.camera.intrinsics.focal_px * up.blur * behind;
+        ((BLUR_TEXELS * deviation).max(1.0).log2() as f32).min(MIP_LEVELS as f32)
+    }
+
+    /// A texel of the water, from which `was` goes up to the picture's camera, for another grazing angle (its sine).
+    fn at_angle(&self, [r, g, b, alpha]: [f32; 4], was: DVec3, grazing: f32) -> [f32; 4] {
+        let [r, g, b] = self.maps.tint.at_angle([r, g, b], (was.y / was.length()) as f32, grazing);
+        [r, g, b, alpha]
+    }
+}
