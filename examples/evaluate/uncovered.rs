@@ -1,6 +1,6 @@
 //! Which pixels of a view show what the picture did not, because something stood before it.
 
-use bevy_picture_tour::maps::{Layer, Maps};
+use bevy_picture_tour::maps::{Layer, Maps, Mipmapped};
 use bevy_picture_tour::picture::{Mask, Picture};
 use glam::IVec2;
 
@@ -13,7 +13,7 @@ pub(super) fn made_up(maps: &Maps, picture: &Picture) -> Maps {
         .flat_map(|maps| std::iter::once(&mut maps.texture).chain(&mut maps.reflection));
     for map in layers {
         mark(&mut map.layer, picture);
-        *map = map.layer.clone().into();
+        *map = Mipmapped::levels_of(map.layer.clone());
     }
     marked
 }

@@ -16,6 +16,7 @@ use crate::maps::Maps;
 use crate::maps::TourMasks;
 use crate::picture::Mask;
 use crate::scene::BillboardPlan;
+use crate::scene::Role;
 use crate::scene::ScenePlan;
 use crate::scene::TourScene;
 use crate::solve::Solution;
@@ -44,7 +45,11 @@ impl AssembledTour {
         for object in &tour.objects {
             let plans = self.plan.billboards.iter_mut().filter(|plan| plan.name == object.name);
             plans.for_each(|plan| plan.turns_to_camera = object.turns_to_camera);
-            let walls = self.scene.components.iter_mut().filter(|component| component.name == object.name);
+            let walls = self
+                .scene
+                .components
+                .iter_mut()
+                .filter(|component| component.role == Role::Billboard && component.name == object.name);
             walls.for_each(|wall| wall.turns_to_camera = object.turns_to_camera);
         }
     }

@@ -16,8 +16,8 @@ use crate::picture::color::srgb_from_linear;
 /// How many times a layer is halved.
 pub const MIP_LEVELS: usize = 4;
 
-/// Transparent pixels beside a layer's transparent borders: a texel of the coarsest level. Borders are prolonged where maps
-/// are read, and none of a layer's own coverage may get into them.
+/// Pixels by which a layer's borders are prolonged on every side: a texel of the coarsest level. Maps are prolonged where they
+/// are read too, and what covers something just inside a transparent border must not get into that.
 pub const GUTTER: u32 = 1 << MIP_LEVELS;
 
 /// A layer and what remains of it when it is halved [`MIP_LEVELS`] times.
@@ -45,9 +45,16 @@ pub fn mip_level(texels: f64) -> f32 {
 }
 
 impl From<Layer> for Mipmapped {
-    /// The layer, with a [`GUTTER`] beside each of its borders that is transparent all along, and its levels.
+    /// The layer, prolonged by a [`GUTTER`] on all sides, and its levels.
     fn from(layer: Layer) -> Self {
-        let layer = with_gutters(layer);
+        Self::levels_of(with_gutters(&layer))
+    }
+}
+
+impl Mipmapped {
+    /// A layer as it is, and its levels.
+    #[must_use]
+    pub fn levels_of(layer: Layer) -> Self {
         let mut coarser: Vec<Layer> = Vec::with_capacity(MIP_LEVELS);
         for _ in 0..MIP_LEVELS {
             let next = halved(coarser.last().unwrap_or(&layer));
@@ -55,9 +62,7 @@ impl From<Layer> for Mipmapped {
         }
         Self { layer, coarser }
     }
-}
 
-impl Mipmapped {
     /// Level `level`, 0 being the layer itself.
     ///
     /// # Panics
@@ -106,27 +111,13 @@ fn linear([r, g, b, a]: [u8; 4]) -> Vec4 {
     Vec4::new(linear_from_srgb(r), linear_from_srgb(g), linear_from_srgb(b), f32::from(a) / 255.0)
 }
 
-fn with_gutters(layer: Layer) -> Layer {
+fn with_gutters(layer: &Layer) -> Layer {
+    let end = layer.origin + layer.size.as_ivec2() - 1;
     if layer.size.min_element() == 0 {
-        return layer;
+        return layer.clone();
     }
-    let end = layer.size - 1;
-    let clear = |from: UVec2, to: UVec2| {
-        let mut cells = (from.y..=to.y).flat_map(|y| (from.x..=to.x).map(move |x| (x, y)));
-        cells.all(|(x, y)| layer.cells[y as usize * layer.size.x as usize + x as usize][3] == 0)
-    };
-    let gutter = |is_clear: bool| if is_clear { GUTTER } else { 0 };
-    let low = UVec2::new(
-        gutter(clear(UVec2::ZERO, UVec2::new(0, end.y))),
-        gutter(clear(UVec2::ZERO, UVec2::new(end.x, 0))),
-    );
-    let high = UVec2::new(gutter(clear(UVec2::new(end.x, 0), end)), gutter(clear(UVec2::new(0, end.y), end)));
-    if low + high == UVec2::ZERO {
-        return layer;
-    }
-    Layer::from_fn(layer.origin - low.as_ivec2(), layer.size + low + high, |pixel| {
-        let nearest = pixel.clamp(layer.origin, layer.origin + end.as_ivec2());
-        layer.get(nearest).unwrap_or_default()
+    Layer::from_fn(layer.origin - GUTTER as i32, layer.size + 2 * GUTTER, |pixel| {
+        layer.get(pixel.clamp(layer.origin, end)).unwrap_or_default()
     })
 }
 
@@ -166,7 +157,7 @@ mod tests {
         let layer = Layer::from_fn(IVec2::ZERO, UVec2::new(4, 2), |pixel| {
             if (pixel.x + pixel.y) % 2 == 0 { [255, 0, 0, 255] } else { [0, 255, 0, 0] }
         });
-        let map = Mipmapped::from(layer);
+        let map = Mipmapped::levels_of(layer);
         assert_eq!(map.coarser[0].cells, [[255, 0, 0, 128]; 2]);
         assert_eq!(map.coarser.len(), MIP_LEVELS);
     }
@@ -178,7 +169,7 @@ mod tests {
             let code = if (pixel.x + pixel.y) % 2 == 0 { 255 } else { 0 };
             [code, code, code, 255]
         });
-        let map = Mipmapped::from(layer);
+        let map = Mipmapped::levels_of(layer);
         assert_eq!(map.coarser[0].size, UVec2::new(3, 2));
         assert_eq!(map.coarser[0].cells[0], [188, 188, 188, 255]);
         let [r, _, _, a] = map.sample(PicturePoint::new(2.0, 1.0), 1.0);

@@ -99,7 +99,10 @@ pub(super) fn fit_slope(
         return 0.0;
     }
     // Between the last slope that leaves predictions too sharp and the first that does not.
-    let Some(first) = (1..known).find(|&i| sharper(i) <= 1.0) else { return 0.0 };
+    let Some(first) = (1..known).find(|&i| sharper(i) <= 1.0) else {
+        // Rougher than all that could be tried.
+        return if known > 1 { SLOPES[known - 2] } else { 0.0 };
+    };
     let share = (sharper(first - 1) - 1.0) / (sharper(first - 1) - sharper(first)).max(1e-6);
     let low = if first == 1 { 0.0 } else { SLOPES[first - 2] };
     low + share.clamp(0.0, 1.0) * (SLOPES[first - 1] - low)

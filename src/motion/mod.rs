@@ -13,7 +13,7 @@ mod stand;
 mod tests;
 mod vessel;
 
-pub use simulation::Simulation;
+pub use simulation::{MEMORY_STEPS, Simulation};
 
 use crate::scene::Placement;
 use crate::wind::CloudCopy;
@@ -33,9 +33,9 @@ pub struct Moment {
     /// Where a wall that floats or sails is now; `None` for what rests, where it rests.
     pub placements: Vec<Option<Placement>>,
     /// Share of the mirrored copy in what a wall shows, 0 to 1: of a body that comes back on its course. A point `s` along
-    /// shows in the copy what rests at `−s`. 0 for all else.
+    /// shows in the copy what rests at `−s`. 0 for all else. Not drawn yet.
     pub mirrored: Vec<f32>,
-    /// The two copies of the sky; their weights sum to 1.
+    /// The two copies of the sky; their weights sum to 1. Not drawn yet.
     pub clouds: [CloudCopy; 2],
 }
 

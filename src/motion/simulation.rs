@@ -23,7 +23,7 @@ use crate::wind::cloud_copies;
 use crate::wind::drift_of_wind;
 
 /// Steps after which water and bodies have forgotten what was: 20 s, four half-lives of ripples.
-const MEMORY_STEPS: u64 = 1200;
+pub const MEMORY_STEPS: u64 = 1200;
 
 /// The last step that is counted; at some ten thousand years, steps are still whole numbers in f64.
 const LAST_STEP: f64 = (1_u64 << 44) as f64;

@@ -168,7 +168,8 @@ fn scaled(map: &Mipmapped, scale: f32) -> Cow<'_, Mipmapped> {
         let [r, g, b] = [sum[0], sum[1], sum[2]].map(|x| srgb_from_linear(x / weight));
         [r, g, b, (sum[3] * 0.25 * 255.0).round() as u8]
     });
-    Cow::Owned(scaled.into())
+    // Its gutters are in it already.
+    Cow::Owned(Mipmapped::levels_of(scaled))
 }
 
 #[cfg(test)]
@@ -176,7 +177,7 @@ mod tests {
     use super::*;
 
     fn map(width: u32, height: u32, code: u8) -> Mipmapped {
-        Layer::filled(IVec2::ZERO, UVec2::new(width, height), [code, code, code, 255]).into()
+        Mipmapped::levels_of(Layer::filled(IVec2::ZERO, UVec2::new(width, height), [code, code, code, 255]))
     }
 
     #[test]
@@ -200,5 +201,13 @@ mod tests {
         let size = atlas.texture.size;
         assert!(atlas.scale < 1.0 && size.max_element() <= 256, "{size} at {}", atlas.scale);
         assert!(atlas.texture.levels[0].contains(&[9, 9, 9, 255]));
+        // One with gutters, alone: a texture no larger than allowed, and texels where the scale says.
+        let dot = Layer::from_fn(IVec2::ZERO, UVec2::splat(300), |pixel| {
+            [9, 9, 9, if pixel == IVec2::splat(150) { 255 } else { 0 }]
+        });
+        let (texture, scale) = Texels::of(&dot.into(), 256);
+        assert!(texture.size.max_element() <= 256, "{}", texture.size);
+        let at = ((150.5 + GUTTER as f32) * scale) as usize;
+        assert!(texture.levels[0][at * texture.size.x as usize + at][3] > 0, "nothing at {at}");
     }
 }

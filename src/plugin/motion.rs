@@ -9,15 +9,12 @@ use bevy::math::DVec2;
 use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
-use crate::motion::{STEP_SECONDS, Simulation};
+use crate::motion::{MEMORY_STEPS, STEP_SECONDS, Simulation};
 use crate::scene::TourScene;
 use crate::tour::{Tour, Wind};
 use crate::water::WaterPoint;
 use crate::water::ripples::Ripples;
-use crate::water::sea::SeaSurface;
 
-/// Up to this time a simulation remembers everything, seconds.
-const REMEMBERED: f64 = 20.0;
 /// Most steps that are taken rather than start over.
 const ONWARD: f64 = 240.0;
 
@@ -27,6 +24,8 @@ const MOST_STEPS: u32 = 4;
 /// Width of the ripples in the waves' texture, which are its upper half; the sea's two tiles share the lower one.
 const RIPPLES: usize = 256;
 const TILE: usize = RIPPLES / 2;
+/// Bytes of a texel.
+const TEXEL: usize = 16;
 
 /// What moves in a tour; on the tour's entity from when it is shown.
 #[derive(Component, Debug)]
@@ -100,9 +99,10 @@ impl TourMotion {
 
     /// Jumps to a time since the tour's start, as if nothing had been touched.
     pub fn go_to(&mut self, seconds: f64) {
-        // Within the first seconds going on and starting over are the same.
-        let ahead = (seconds / STEP_SECONDS).round() - self.simulation.steps() as f64;
-        if !self.touched && seconds <= REMEMBERED && (0.0..=ONWARD).contains(&ahead) {
+        // Within what is remembered going on and starting over are the same.
+        let step = (seconds / STEP_SECONDS).round();
+        let ahead = step - self.simulation.steps() as f64;
+        if !self.touched && step <= MEMORY_STEPS as f64 && (0.0..=ONWARD).contains(&ahead) {
             (0..ahead as u32).for_each(|_| self.simulation.step());
         } else {
             self.simulation.go_to(seconds);
@@ -132,10 +132,12 @@ impl TourMotion {
         self.due += seconds.max(0.0);
         // A frame's time is not quite a whole number of steps.
         let steps = ((self.due / STEP_SECONDS + 1e-3).floor() as u32).min(MOST_STEPS);
+        let was_still = self.simulation.is_still();
         for _ in 0..steps {
             self.simulation.step();
         }
-        self.changed |= steps > 0;
+        // What rests is not uploaded again and again.
+        self.changed |= steps > 0 && !(was_still && self.simulation.is_still());
         self.due -= f64::from(steps) * STEP_SECONDS;
         if self.due > STEP_SECONDS {
             self.dropped_seconds += self.due;
@@ -151,10 +153,25 @@ impl TourMotion {
         turned || (std::mem::take(&mut self.changed) && !self.still)
     }
 
-    /// The texture of the water as it is now.
-    pub(super) fn waves(&mut self) -> Vec<u8> {
-        let ripples = self.simulation.ripple_texels().map(<[_]>::to_vec);
-        waves(self.simulation.sea(), ripples.as_deref())
+    /// Writes the water as it is now into the bytes of [`waves_image`]; the layout stands in `material/waves.wgsl`.
+    pub(super) fn write_waves(&mut self, bytes: &mut [u8]) {
+        let (upper, lower) = bytes.split_at_mut(bytes.len() / 2);
+        if let Some(ripples) = self.simulation.ripple_texels().map(bytemuck::cast_slice::<_, u8>)
+            && ripples.len() == upper.len()
+        {
+            upper.copy_from_slice(ripples);
+        }
+        for (side, tile) in self.simulation.sea().iter().flat_map(|sea| sea.tiles()).enumerate() {
+            let (mut rest, mut row, mut size) = (tile.texels(), 0, TILE);
+            while size > 0 {
+                let (level, coarser) = rest.split_at(size * size);
+                for (source, row) in level.chunks_exact(size).zip(row..) {
+                    let start = TEXEL * (row * RIPPLES + side * TILE);
+                    lower[start..start + TEXEL * size].copy_from_slice(bytemuck::cast_slice(source));
+                }
+                (rest, row, size) = (coarser, row + size, size / 2);
+            }
+        }
     }
 }
 
@@ -180,29 +197,8 @@ pub(super) fn waves_image() -> Image {
     let size = Extent3d { width: RIPPLES as u32, height: 2 * RIPPLES as u32, depth_or_array_layers: 1 };
     let usage = RenderAssetUsages::RENDER_WORLD | RenderAssetUsages::MAIN_WORLD;
     let mut image = Image::new_uninit(size, TextureDimension::D2, TextureFormat::Rgba32Float, usage);
-    image.data = Some(waves(None, None));
+    image.data = Some(vec![0; 2 * RIPPLES * RIPPLES * TEXEL]);
     image
-}
-
-/// The bytes of the waves' texture; its layout stands in `material/waves.wgsl`.
-fn waves(sea: Option<&SeaSurface>, ripples: Option<&[[f32; 4]]>) -> Vec<u8> {
-    let mut texels = vec![[0.0_f32; 4]; 2 * RIPPLES * RIPPLES];
-    let (upper, lower) = texels.split_at_mut(RIPPLES * RIPPLES);
-    if let Some(ripples) = ripples.filter(|ripples| ripples.len() == upper.len()) {
-        upper.copy_from_slice(ripples);
-    }
-    for (side, tile) in sea.iter().flat_map(|sea| sea.tiles()).enumerate() {
-        let (mut rest, mut row, mut size) = (tile.texels(), 0, TILE);
-        while size > 0 {
-            let (level, coarser) = rest.split_at(size * size);
-            for (source, row) in level.chunks_exact(size).zip(row..) {
-                let start = row * RIPPLES + side * TILE;
-                lower[start..start + size].copy_from_slice(source);
-            }
-            (rest, row, size) = (coarser, row + size, size / 2);
-        }
-    }
-    bytemuck::cast_slice(&texels).to_vec()
 }
 
 /// Whether a tour's ripples are those that the shader can show.

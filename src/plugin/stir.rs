@@ -94,7 +94,11 @@ pub(super) fn stir(
             direction: tour_from_world.transform_vector3(ray.direction.as_dvec3()),
         };
         let moved = &motion.simulation().moment().placements;
-        let Some(at) = water_under(solved, moved, ray) else { continue };
+        let ripples = motion.simulation().ripples().filter(|_| !motion.still);
+        let under = water_under(solved, moved, ray);
+        let Some(at) = under.filter(|&at| ripples.is_some_and(|ripples| ripples.is_water(at))) else {
+            continue;
+        };
         let distance = at.distance(DVec2::new(ray.origin.x, ray.origin.z));
         let impulse = match goes_on {
             None => TAP,

@@ -104,8 +104,10 @@ pub(super) fn look_at_tours(
                 shown.records.set_sways(&motion.simulation().moment().sways);
                 let ripples = shown_ripples(motion.simulation().ripples());
                 shown.records.set_water(motion.simulation().sea(), ripples);
-                if let Some(mut image) = images.get_mut(&shown.waves) {
-                    image.data = Some(motion.waves());
+                if let Some(bytes) =
+                    images.get_mut(&shown.waves).as_mut().and_then(|image| image.data.as_mut())
+                {
+                    motion.write_waves(bytes);
                 }
             }
         }

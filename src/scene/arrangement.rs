@@ -3,7 +3,7 @@
 //! A wall that moved is met where it is now, and its maps are read for the point of the resting wall that came there
 //! (architecture.md, decision 1). For the camera that took the picture everything rests.
 
-use glam::{DVec2, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 
 use super::{Role, Surface, TourScene, Wall, near_to_far};
 use crate::camera::Ray;
@@ -53,18 +53,16 @@ impl Wall {
         Placement { origin: self.point(0.0, 0.0), along: along3(self.along), up: DVec3::Y }
     }
 
-    /// The wall turned about the vertical through its `foot` as far as that is seen from elsewhere than from
-    /// `picture`, at most 30° (notes §9.3).
-    fn turned(&self, eye: DVec3, picture: DVec3) -> Self {
+    /// The angle about the vertical through its `foot` by which the wall is seen from elsewhere than from `picture`, radians to
+    /// the left, at most 30° (notes §9.3).
+    fn turn(&self, eye: DVec3, picture: DVec3) -> f64 {
         let bearing = |from: DVec3| {
             let to = self.foot - DVec2::new(from.x, from.z);
             to.x.atan2(-to.y)
         };
         let mut turn = bearing(picture) - bearing(eye);
         turn -= std::f64::consts::TAU * (turn / std::f64::consts::TAU).round();
-        let turn = MOST_TURN * (turn / MOST_TURN).tanh();
-        // About +y, from +z towards +x: in (x, z) that is clockwise.
-        Self { along: DVec2::from_angle(-turn).rotate(self.along), ..*self }
+        MOST_TURN * (turn / MOST_TURN).tanh()
     }
 }
 
@@ -73,6 +71,12 @@ fn along3(along: DVec2) -> DVec3 {
 }
 
 impl Placement {
+    /// This turned about the vertical through its origin, radians to the left.
+    fn turned(&self, turn: f64) -> Self {
+        let turn = DQuat::from_rotation_y(turn);
+        Self { origin: self.origin, along: turn * self.along, up: turn * self.up }
+    }
+
     /// The resting wall moved to where this one's contact line is; as far as the order of walls goes.
     fn contact(&self, wall: &Wall) -> Wall {
         let along = DVec2::new(self.along.x, self.along.z).normalize_or(wall.along);
@@ -123,15 +127,13 @@ impl TourScene {
             else {
                 continue;
             };
-            let mut now = *wall;
-            if let Some(Some(placement)) = moved.get(index) {
-                now = placement.contact(wall);
-                placements[index] = Some(*placement);
-            } else if component.turns_to_camera {
-                now = wall.turned(eye, self.camera.pose.position);
-                placements[index] = Some(now.resting());
+            let mut placement = moved.get(index).copied().flatten();
+            if component.turns_to_camera {
+                let turn = wall.turn(eye, self.camera.pose.position);
+                placement = Some(placement.unwrap_or(wall.resting()).turned(turn));
             }
-            walls.push((index, now));
+            walls.push((index, placement.map_or(*wall, |placement| placement.contact(wall))));
+            placements[index] = placement;
         }
         let mut order = near_to_far(&walls, DVec2::new(eye.x, eye.z));
         if let Some(ground) = self.ground() {
@@ -154,21 +156,22 @@ mod tests {
     #[test]
     fn a_wall_turns_to_who_walks_around_it_and_rests_for_the_picture_s_camera() {
         let picture = DVec3::new(0.0, 1.8, 0.0);
-        assert_eq!(wall().turned(picture, picture), wall());
-        let turned = wall().turned(DVec3::new(2.0, 1.8, 0.0), picture);
+        assert_eq!(wall().turn(picture, picture), 0.0);
+        assert_eq!(wall().resting().turned(0.0), wall().resting());
+        let turned = wall().resting().turned(wall().turn(DVec3::new(2.0, 1.8, 0.0), picture));
         // Seen from 2 m to the right, a turn of 2 · atan(0.1) = 11.42°, a bit less for the limit at 30°.
-        let degrees = turned.along.y.atan2(turned.along.x).to_degrees();
-        assert!((degrees + 10.9).abs() < 0.1, "turned by {degrees}°: its right end comes nearer below 0");
-        let far_round = wall().turned(DVec3::new(30.0, 1.8, -10.0), picture).along;
-        assert!(far_round.y.atan2(far_round.x).abs() <= MOST_TURN);
+        let degrees = turned.along.z.atan2(turned.along.x).to_degrees();
+        assert!((degrees + 10.9).abs() < 0.1, "turned by {degrees}°: its right end goes away below 0");
+        assert!(wall().turn(DVec3::new(30.0, 1.8, -10.0), picture).abs() <= MOST_TURN);
     }
 
     #[test]
     fn a_turned_wall_reads_the_points_of_the_resting_one() {
-        let turned = wall().turned(DVec3::new(3.0, 1.8, 0.0), DVec3::new(0.0, 1.8, 0.0));
-        let aim = turned.point(1.5, 2.0);
+        let turn = wall().turn(DVec3::new(3.0, 1.8, 0.0), DVec3::new(0.0, 1.8, 0.0));
+        let turned = wall().resting().turned(turn);
+        let aim = turned.origin + 1.5 * turned.along + 2.0 * turned.up;
         let origin = DVec3::new(3.0, 1.8, 0.0);
-        let met = turned.resting().meet(&wall(), Ray { origin, direction: aim - origin }).unwrap();
+        let met = turned.meet(&wall(), Ray { origin, direction: aim - origin }).unwrap();
         assert!(met.point.distance(aim) < 1e-12 && (met.t - 1.0).abs() < 1e-12);
         assert!(met.rest.0.distance(wall().point(1.5, 2.0)) < 1e-12, "{:?}", met.rest);
     }

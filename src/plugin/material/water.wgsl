@@ -1,6 +1,6 @@
 // The water: every fragment mirrors its ray and traces it through the components' reflection maps, near to far.
 //
-// Twin of `trace/mod.rs` (`mirrored`, `mirror_hit`), held to it by tests/integration/gpu_matches_trace.rs.
+// Twin of `trace/mirrored.rs`, held to it by tests/integration/gpu_matches_trace.rs.
 
 #define_import_path bevy_picture_tour::water
 
@@ -119,7 +119,7 @@ fn mirrored(
     var to_water = -ray.origin.y / ray.direction.y;
     let focal = 0.5 * view.main_pass_viewport.w * view.clip_from_view[1][1];
     // Along the view a pixel covers this many meters of the water.
-    let footprint = to_water / (focal * -ray.direction.y);
+    let footprint = to_water / (focal * max(-ray.direction.y, 1e-6));
     var at = ray.origin + to_water * ray.direction;
     var water = surface(records, waves, at.xz, footprint);
     if water.height != 0.0 {

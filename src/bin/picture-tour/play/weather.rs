@@ -25,9 +25,9 @@ pub(super) fn show(
             for mut motion in &mut tours {
                 let mut wind = motion.wind();
                 let before = wind;
-                ui.add(egui::Slider::new(&mut wind.speed, 0.0..=FASTEST).text("wind, m/s"));
-                ui.add(egui::Slider::new(&mut wind.direction_deg, -180.0..=180.0).text("blows towards, °"));
-                ui.add(egui::Slider::new(&mut wind.gusts, 0.0..=1.0).text("gusts"));
+                ui.add(slider(&mut wind.speed, 0.0..=FASTEST).text("wind, m/s"));
+                ui.add(slider(&mut wind.direction_deg, -180.0..=180.0).text("blows towards, °"));
+                ui.add(slider(&mut wind.gusts, 0.0..=1.0).text("gusts"));
                 if wind != before {
                     motion.set_wind(&wind);
                 }
@@ -39,4 +39,9 @@ pub(super) fn show(
         });
     });
     Ok(())
+}
+
+/// A slider that leaves a number beyond its range as it is until it is moved.
+fn slider(value: &mut f64, range: std::ops::RangeInclusive<f64>) -> egui::Slider<'_> {
+    egui::Slider::new(value, range).clamping(egui::SliderClamping::Edits)
 }
