@@ -28,6 +28,10 @@ fn simulation(trees: usize, change: impl FnOnce(&mut TourFile)) -> Simulation {
         file.objects.push(bevy_picture_tour::tour::Object { name: name.clone(), ..tree.clone() });
         plan.billboards.push(scene::BillboardPlan { name, ..planned.clone() });
     }
+    // The scene is placed already.
+    if let Some(water) = &mut file.water {
+        water.pairs.clear();
+    }
     change(&mut file);
     let (scene, _) = scene::build(&plan);
     Simulation::new(&Tour::check(file).unwrap(), &scene).0
