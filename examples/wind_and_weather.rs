@@ -20,14 +20,12 @@ fn main() -> AppExit {
 }
 
 /// Asks for another wind now and then; it changes gently by itself.
-fn change(mut tours: Query<&mut TourMotion>, time: Res<Time>) {
+fn change(mut tours: Query<&mut TourWeather>, time: Res<Time>) {
     let breeze = (time.elapsed_secs() / TURN) as u32 % 2 == 1;
-    for mut motion in &mut tours {
-        let mut wind = motion.wind();
+    for mut weather in &mut tours {
         let wanted = if breeze { 6.0 } else { 0.0 };
-        if wind.speed != wanted {
-            wind.speed = wanted;
-            motion.set_wind(&wind);
+        if weather.wind.speed != wanted {
+            weather.wind.speed = wanted;
         }
     }
 }

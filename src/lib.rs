@@ -45,7 +45,7 @@ pub mod headless;
 pub mod prelude {
     pub use crate::camera::Fit;
     pub use crate::plugin::{
-        ColorPolicy, Guide, PictureTour, PictureTourPlugin, PictureTourSystems, SolvedTour, TouchWater,
-        TourAsset, TourCamera, TourCameraState, TourFailed, TourMotion, TourReady,
+        ColorPolicy, Guide, ObjectMotion, PictureTour, PictureTourPlugin, PictureTourSystems, SolvedTour,
+        TouchWater, TourAsset, TourCamera, TourCameraState, TourFailed, TourMotion, TourReady, TourWeather,
     };
 }

@@ -25,6 +25,7 @@ use bevy::window::{ExitCondition, WindowPlugin};
 use crate::assemble::assemble;
 use crate::camera::Fit;
 use crate::camera::PinholeCamera;
+use crate::motion::LoopError;
 use crate::picture::Picture;
 use crate::plugin::Guide;
 use crate::plugin::PictureTour;
@@ -144,6 +145,19 @@ impl HeadlessTour {
                 motion.go_to(seconds);
             }
         }
+    }
+
+    /// Lets the tour begin anew after so many seconds, without a seam, from now on.
+    ///
+    /// # Errors
+    ///
+    /// As [`TourMotion::repeat_after`].
+    pub fn repeat_after(&mut self, seconds: f64) -> Result<(), LoopError> {
+        let world = self.app.world_mut();
+        world
+            .query::<&mut TourMotion>()
+            .iter_mut(world)
+            .try_for_each(|mut motion| motion.repeat_after(seconds))
     }
 
     /// What was solved and built.

@@ -6,13 +6,17 @@
 //!
 //! Tour space: meters, x right, y up, −z into the picture; resting water is y = 0, and a point of it is (x, z).
 
+mod looped;
+mod movers;
 mod near_water;
+mod roles;
 mod simulation;
 mod stand;
 #[cfg(test)]
 mod tests;
 mod vessel;
 
+pub use looped::{LONGEST_LOOP, LoopError, SHORTEST_LOOP};
 pub use simulation::{MEMORY_STEPS, Simulation};
 
 use crate::scene::Placement;
@@ -33,22 +37,51 @@ pub struct Moment {
     /// Where a wall that floats or sails is now; `None` for what rests, where it rests.
     pub placements: Vec<Option<Placement>>,
     /// Share of the mirrored copy in what a wall shows, 0 to 1: of a body that comes back on its course. A point `s` along
-    /// shows in the copy what rests at `−s`. 0 for all else. Not drawn yet.
+    /// shows in the copy what rests at `−s`. 0 for all else.
     pub mirrored: Vec<f32>,
-    /// The two copies of the sky; their weights sum to 1. Not drawn yet.
+    /// The two copies of the sky; their weights sum to 1. They move what is infinitely far.
     pub clouds: [CloudCopy; 2],
 }
 
 impl Moment {
     /// The picture as it was taken, of so many components.
     fn still(components: usize) -> Self {
-        let still = CloudCopy { offset_px: glam::DVec2::ZERO, weight: 1.0 };
         Self {
             seconds: 0.0,
             sways: vec![SwayRecord::default(); components],
             placements: vec![None; components],
             mirrored: vec![0.0; components],
-            clouds: [still, CloudCopy { weight: 0.0, ..still }],
+            clouds: CloudCopy::STILL,
+        }
+    }
+
+    /// Puts a component back to where it rests.
+    fn rest(&mut self, component: usize) {
+        self.sways[component] = SwayRecord::default();
+        self.placements[component] = None;
+        self.mirrored[component] = 0.0;
+    }
+}
+
+/// What can ever move in a component, or in what the water mirrors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Moves {
+    /// A plant sways.
+    pub sways: bool,
+    /// A body comes back on its way, as its mirrored copy.
+    pub returns: bool,
+    /// Clouds drift.
+    pub drifts: bool,
+}
+
+impl Moves {
+    /// What can move in one or the other.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            sways: self.sways || other.sways,
+            returns: self.returns || other.returns,
+            drifts: self.drifts || other.drifts,
         }
     }
 }

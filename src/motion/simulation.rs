@@ -2,28 +2,29 @@
 
 use glam::DVec2;
 
+use super::looped::{self, LoopError};
+use super::movers::Movers;
 use super::near_water::NearWater;
-use super::stand;
-use super::vessel::Vessel;
-use super::{Moment, STEP_SECONDS};
-use crate::scene::Role;
+use super::{Moment, Moves, STEP_SECONDS};
 use crate::scene::Surface;
 use crate::scene::TourScene;
 use crate::tour::Drift;
-use crate::tour::Motion;
 use crate::tour::Sea;
 use crate::tour::Tour;
 use crate::tour::Wind;
 use crate::water::ripples::Ripples;
 use crate::water::sea::SeaSurface;
 use crate::water::{MovingWater, WaterPoint, WaterSurface};
-use crate::wind::ChangingWind;
-use crate::wind::Plants;
+use crate::wind::ChangingWeather;
+use crate::wind::Weather;
 use crate::wind::cloud_copies;
 use crate::wind::drift_of_wind;
 
 /// Steps after which water and bodies have forgotten what was: 20 s, four half-lives of ripples.
 pub const MEMORY_STEPS: u64 = 1200;
+
+/// The same for loops, whose ends must meet: twelve half-lives.
+const LOOP_MEMORY_STEPS: u64 = 3600;
 
 /// The last step that is counted; at some ten thousand years, steps are still whole numbers in f64.
 const LAST_STEP: f64 = (1_u64 << 44) as f64;
@@ -31,6 +32,7 @@ const LAST_STEP: f64 = (1_u64 << 44) as f64;
 /// How the clouds drift.
 #[derive(Clone, Copy, Debug)]
 enum Clouds {
+    Still,
     Drifting(Drift),
     WithWind,
 }
@@ -38,17 +40,20 @@ enum Clouds {
 /// A tour that moves.
 #[derive(Clone, Debug)]
 pub struct Simulation {
+    pub(super) tour: Tour,
+    pub(super) scene: TourScene,
+    pub(super) loop_seconds: Option<f64>,
+    /// The step at which water and bodies rested last.
+    rested_at: u64,
     steps: u64,
-    wind: ChangingWind,
+    /// Whether anything was done to it that [`Simulation::go_to`] forgets.
+    pub(super) touched: bool,
+    weather: ChangingWeather,
     clouds: Clouds,
-    focal_px: f64,
-    plants: Plants,
-    /// The component of each plant.
-    plant_components: Vec<usize>,
+    pub(super) movers: Movers,
     sea: Option<SeaSurface>,
     near: Option<NearWater>,
-    vessels: Vec<Vessel>,
-    moment: Moment,
+    pub(super) moment: Moment,
 }
 
 impl Simulation {
@@ -58,68 +63,87 @@ impl Simulation {
     /// Clouds move in a tour with a sky: as it says, in any wind, or else with the wind. An open course is sailed to and fro.
     #[must_use]
     pub fn new(tour: &Tour, scene: &TourScene) -> (Self, Vec<String>) {
-        let mut remarks = Vec::new();
-        let (mut plants, mut plant_components, mut vessels) = (Vec::new(), Vec::new(), Vec::new());
-        for object in &tour.objects {
-            let place = scene.components.iter().enumerate().find_map(|(index, component)| {
-                let is_it = component.role == Role::Billboard && component.name == object.name;
-                let Surface::Wall(wall) = &component.surface else { return None };
-                is_it.then_some((index, wall))
-            });
-            // What has no place was left out of the scene, which says so.
-            let Some((index, wall)) = place else { continue };
-            let mut rests = |reason: &str| remarks.push(format!("\"{}\" rests: {reason}", object.name));
-            match &object.motion {
-                Motion::Static => {}
-                Motion::Sway(sway) => match stand::plant(object, sway, &tour.wind, scene, wall) {
-                    Ok(plant) => {
-                        plants.push(plant);
-                        plant_components.push(index);
-                    }
-                    Err(reason) => rests(&reason),
-                },
-                Motion::Floating(floating) => {
-                    vessels.push(Vessel::anchored(index, object, floating, scene, wall));
-                }
-                Motion::Course(course) => match Vessel::sailing(index, object, course, scene, wall) {
-                    Ok(vessel) => vessels.push(vessel),
-                    Err(error) => rests(&error.to_string()),
-                },
-                Motion::Recorded(_) => rests("recorded poses are not drawn yet"),
-            }
+        let (simulation, resting, mut remarks) = Self::start(tour.clone(), scene.clone(), None);
+        let rests = |(name, reason): (String, String)| format!("\"{name}\" rests: {reason}");
+        remarks.extend(resting.into_iter().map(rests));
+        (simulation, remarks)
+    }
+
+    /// The same tour from its start, in its present weather, repeating after so many seconds. Periods become whole parts of
+    /// them and courses take whole rounds; what was [led](Self::lead) is not.
+    ///
+    /// # Errors
+    ///
+    /// For loops under 8 s or over an hour, and where a course would have to be sailed at more than twice or less than half
+    /// its speed.
+    pub fn looped(&self, seconds: f64) -> Result<Self, LoopError> {
+        let tour = looped::with_whole_periods(&self.tour, seconds)?;
+        let (mut simulation, resting, _) = Self::start(tour, self.scene.clone(), Some(seconds));
+        let sails_here =
+            |name: &str| self.object(name).is_some_and(|(index, ..)| self.movers.moves(index).returns);
+        if let Some((name, reason)) = resting.into_iter().find(|(name, _)| sails_here(name)) {
+            return Err(LoopError::Mover { name, seconds, reason });
         }
+        let target = self.weather.target();
+        simulation.set_weather(&target);
+        simulation.go_to(0.0);
+        Ok(simulation)
+    }
+
+    /// A tour at its start; who rests and why; remarks.
+    fn start(
+        tour: Tour,
+        scene: TourScene,
+        loop_seconds: Option<f64>,
+    ) -> (Self, Vec<(String, String)>, Vec<String>) {
+        let mut remarks = Vec::new();
         if let Sea::Recorded(_) = tour.waves.sea {
             remarks.push("the sea rests: recorded seas are not drawn yet".to_owned());
         }
         let sea = scene.water.then(|| SeaSurface::new(&tour.waves.sea, &tour.wind)).flatten();
-        let still = Drift { speed: 0.0, direction_deg: 0.0 };
         let mut simulation = Self {
+            loop_seconds,
+            rested_at: 0,
             steps: 0,
-            wind: ChangingWind::steady(tour.wind),
+            touched: false,
+            weather: ChangingWeather::steady(tour.wind.into()),
             clouds: match &tour.sky {
-                None => Clouds::Drifting(still),
-                Some(sky) => sky.drift.map_or(Clouds::WithWind, Clouds::Drifting),
+                // Without a region the sky is a part of the background, mountains and all.
+                Some(sky)
+                    if scene.last_layer().surface == Surface::Infinity
+                        && scene.last_layer().name == "sky" =>
+                {
+                    sky.drift.map_or(Clouds::WithWind, Clouds::Drifting)
+                }
+                _ => Clouds::Still,
             },
-            focal_px: scene.camera.intrinsics.focal_px,
-            plants: Plants::new(plants, &tour.wind),
-            plant_components,
+            movers: Movers::new(&tour.wind),
             sea,
-            near: NearWater::new(tour, scene, &mut remarks),
-            vessels,
+            near: NearWater::new(&tour, &scene, &mut remarks),
             moment: Moment::still(scene.components.len()),
+            tour,
+            scene,
         };
+        let mut resting = Vec::new();
+        for object in simulation.tour.objects.clone() {
+            // What has no place was left out of the scene, which says so.
+            if let Some((component, ..)) = simulation.object(&object.name)
+                && let Err(reason) = simulation.cast(component, &object)
+            {
+                resting.push((object.name, reason));
+            }
+        }
         simulation.raise_sea();
         simulation.show();
-        (simulation, remarks)
+        (simulation, resting, remarks)
     }
 
-    /// Whether nothing can move unless it is touched or the wind is changed.
+    /// Whether nothing can move unless it is touched or the weather is changed.
     #[must_use]
     pub fn is_still(&self) -> bool {
         let wind = self.wind();
-        let calm = wind.speed == 0.0 && self.wind.target().speed == 0.0;
-        let at_rest = self.ripples().is_none_or(Ripples::is_still)
-            && self.vessels.iter().all(|vessel| !vessel.sails() && vessel.is_at_rest());
+        let calm = wind.speed == 0.0 && self.weather.target().wind.speed == 0.0;
+        let at_rest = self.ripples().is_none_or(Ripples::is_still) && self.movers.are_at_rest();
         calm && at_rest && self.drift(&wind).speed == 0.0
     }
 
@@ -143,41 +167,61 @@ impl Simulation {
 
     /// Goes to the step nearest to `seconds` from the tour's start; what is before that, or no number, is the start.
     ///
-    /// It starts over: touches are forgotten, and the wind that was [set](Self::set_wind) last counts as having blown from
-    /// the start. Nothing else of what was before counts. Of water and bodies only the last 20 s before that time are
-    /// simulated, so in the first 20 s of a tour this is what as many steps give, to the bit.
+    /// Touches are forgotten, and the weather that was [set](Self::set_weather) last counts as having been so from the start.
+    /// Nothing else of what was before counts, in whatever order times are asked for. Of water and bodies only the last
+    /// 20 s before that time are simulated, so in the first 20 s of a tour this is what as many steps give, to the bit. A
+    /// [looped](Self::looped) tour has gone on for a minute before its start.
     pub fn go_to(&mut self, seconds: f64) {
-        // The cast makes 0 of what is no number.
-        let last = (seconds / STEP_SECONDS).round().clamp(0.0, LAST_STEP) as u64;
-        self.wind = ChangingWind::steady(self.wind.target());
-        self.steps = if self.has_memory() { last.saturating_sub(MEMORY_STEPS) } else { last };
-        if let Some(near) = &mut self.near {
-            near.ripples.still();
+        let (rested_at, last) = self.way_to(seconds);
+        let goes_on =
+            !self.touched && self.rested_at == rested_at && (rested_at..=last).contains(&self.steps);
+        if !goes_on {
+            self.touched = false;
+            self.weather = ChangingWeather::steady(self.weather.target());
+            (self.rested_at, self.steps) = (rested_at, rested_at);
+            if let Some(near) = &mut self.near {
+                near.ripples.still();
+            }
+            self.movers.rest();
+            self.raise_sea();
         }
-        self.vessels.iter_mut().for_each(Vessel::rest);
-        self.raise_sea();
         while self.steps < last {
             self.advance();
         }
         self.show();
     }
 
-    /// Lets the wind turn gently to another one, of which speed, direction and gusts count. Numbers are brought into their
-    /// ranges; what is no number stays as it was. The sea becomes higher or lower, but keeps running where it ran.
-    pub fn set_wind(&mut self, wind: &Wind) {
-        self.wind.change(self.seconds(), *wind);
+    /// The step at which everything rests so that it is as it should at `seconds`, and the step that this is.
+    fn way_to(&self, seconds: f64) -> (u64, u64) {
+        // The cast makes 0 of what is no number.
+        let step = |seconds: f64| (seconds / STEP_SECONDS).round().clamp(0.0, LAST_STEP) as u64;
+        let (last, rested_at) = match self.loop_seconds {
+            None => (step(seconds), step(seconds).saturating_sub(MEMORY_STEPS)),
+            Some(round) => {
+                let rounds = (LOOP_MEMORY_STEPS as f64 * STEP_SECONDS / round).ceil() * round;
+                let within = if seconds.is_finite() { seconds.rem_euclid(round) } else { 0.0 };
+                (step(rounds + within), step(rounds) - LOOP_MEMORY_STEPS)
+            }
+        };
+        if self.has_memory() { (rested_at, last) } else { (last, last) }
+    }
+
+    /// Lets the weather turn gently to another. Numbers are brought into their ranges; what is no number stays as it was, as
+    /// do seed and period of the wind. The sea becomes higher or lower, but keeps running where it ran.
+    pub fn set_weather(&mut self, weather: &Weather) {
+        self.touched |= self.weather.change(self.seconds(), *weather);
     }
 
     /// The wind of this moment.
     #[must_use]
     pub fn wind(&self) -> Wind {
-        self.wind.at(self.seconds())
+        self.weather.at(self.seconds()).wind
     }
 
-    /// The wind that was asked for, which it is or turns to.
+    /// The weather that was asked for, which it is or turns to.
     #[must_use]
-    pub fn wind_to_come(&self) -> Wind {
-        self.wind.target()
+    pub fn weather_to_come(&self) -> Weather {
+        self.weather.target()
     }
 
     /// Stirs the water around (x, z), as [`Ripples::touch`] does: `radius` in meters, `impulse` in m/s upwards. Off the near
@@ -190,7 +234,21 @@ impl Simulation {
             return false;
         }
         near.ripples.touch(at, radius, impulse);
+        self.touched = true;
         true
+    }
+
+    /// What can ever move in the component of this index.
+    #[must_use]
+    pub fn moves(&self, component: usize) -> Moves {
+        let drifts = component == 0 && !matches!(self.clouds, Clouds::Still);
+        Moves { drifts, ..self.movers.moves(component) }
+    }
+
+    /// What can ever move in any component, and so in the water.
+    #[must_use]
+    pub fn all_moves(&self) -> Moves {
+        (0..self.scene.components.len()).fold(Moves::default(), |all, index| all.or(self.moves(index)))
     }
 
     /// Where everything is.
@@ -229,7 +287,8 @@ impl Simulation {
         self.water().at(xz, 0.0)
     }
 
-    /// One step of all that has a memory: wind → sea → what walls throw back → bodies → ripples. Touches act between steps.
+    /// One step of all that has a memory: weather → sea → what walls throw back → bodies → ripples. Touches act between
+    /// steps.
     fn advance(&mut self) {
         self.steps += 1;
         self.raise_sea();
@@ -238,56 +297,45 @@ impl Simulation {
         if let (Some(near), Some(sea)) = (&mut self.near, sea) {
             near.throw_back(sea);
         }
-        for vessel in &mut self.vessels {
-            // Pressure acts in the ripples' step, so each body sees the water without what the others do in this one.
-            let ripples = self.near.as_ref().map(|near| &near.ripples);
-            vessel.step(seconds, &MovingWater { sea, ripples });
-            if let Some(near) = &mut self.near {
-                vessel.press(seconds, &mut near.ripples);
-            }
-        }
+        let ripples = self.near.as_ref().map(|near| &near.ripples);
+        self.movers.step(seconds, &MovingWater { sea, ripples });
         if let Some(near) = &mut self.near {
+            self.movers.press(seconds, &mut near.ripples);
             near.ripples.step();
         }
     }
 
-    /// Brings the sea to the present time and wind.
+    /// Brings the sea to the present time and weather.
     fn raise_sea(&mut self) {
-        let (seconds, speed) = (self.seconds(), self.wind().speed);
+        let seconds = self.seconds();
+        let Weather { wind, waves } = self.weather.at(seconds);
         if let Some(sea) = &mut self.sea {
-            sea.update(seconds, sea.gain(speed));
+            sea.update(seconds, waves * sea.gain(wind.speed));
         }
     }
 
     /// Writes down where everything is.
-    fn show(&mut self) {
+    pub(super) fn show(&mut self) {
         let (seconds, wind) = (self.seconds(), self.wind());
         let drift = self.drift(&wind);
-        let moment = &mut self.moment;
-        moment.seconds = seconds;
-        moment.clouds = cloud_copies(&drift, wind.period_seconds, seconds);
-        let records = self.plants.update(seconds, &wind);
-        for (record, &component) in records.iter().zip(&self.plant_components) {
-            moment.sways[component] = *record;
-        }
-        for vessel in &self.vessels {
-            let pose = vessel.pose(seconds);
-            moment.placements[vessel.component] = vessel.placement(&pose);
-            moment.mirrored[vessel.component] = pose.mirrored_share as f32;
-        }
+        self.moment.seconds = seconds;
+        self.moment.clouds = cloud_copies(&drift, wind.period_seconds, seconds);
+        self.movers.show(seconds, &wind, &mut self.moment);
     }
 
     fn drift(&self, wind: &Wind) -> Drift {
         match self.clouds {
+            Clouds::Still => Drift { speed: 0.0, direction_deg: 0.0 },
             Clouds::Drifting(drift) => drift,
-            Clouds::WithWind => drift_of_wind(wind, self.focal_px),
+            Clouds::WithWind => drift_of_wind(wind, self.scene.camera.intrinsics.focal_px),
         }
     }
 
     /// Whether water or bodies can be otherwise than at rest before anything is touched.
     fn has_memory(&self) -> bool {
-        let waves = self.sea.as_ref().is_some_and(|sea| sea.gain(self.wind.target().speed) > 0.0);
+        let Weather { wind, waves } = self.weather.target();
+        let waves = self.sea.as_ref().is_some_and(|sea| waves * sea.gain(wind.speed) > 0.0);
         let is_walled = self.near.as_ref().is_some_and(NearWater::has_walls);
-        self.vessels.iter().any(Vessel::sails) || waves && (is_walled || !self.vessels.is_empty())
+        self.movers.sail() || waves && (is_walled || self.movers.swim())
     }
 }

@@ -1,7 +1,8 @@
-//! A body of the tour that floats or sails, and where it brings its wall.
+//! A body of the tour that floats, sails or is led, and where it brings its wall.
 //!
 //! One at anchor and the water act on each other. One on a course presses its wake into the water and follows the waves,
-//! its own wake's too, but does not press as a floating one does: nothing then feeds waves that travel with it.
+//! its own wake's too, but does not press as a floating one does: nothing then feeds waves that travel with it. One that is
+//! led, by a game, is where it is said to be; the water does not feel it.
 
 use glam::{DVec2, DVec3};
 
@@ -41,9 +42,16 @@ pub(super) struct Vessel {
     wall: Wall,
     berth: Berth,
     body: FloatingBody,
-    /// `None` at anchor.
-    course: Option<SailedCourse>,
+    way: Way,
     wake: Wake,
+}
+
+/// What brings a body from its place.
+#[derive(Clone, Debug)]
+enum Way {
+    Anchored,
+    Course(SailedCourse),
+    Led(BodyPose),
 }
 
 impl Vessel {
@@ -56,31 +64,47 @@ impl Vessel {
         wall: &Wall,
     ) -> Self {
         let hull = Hull::new(floating, contact_length(object, scene, wall));
-        Self::new(component, wall, hull, None)
+        Self::new(component, wall, hull, Way::Anchored)
     }
 
-    /// A body on a course, which comes back on it.
+    /// A body on a course, which comes back on it; whole rounds of it fit a loop of so many seconds.
     pub(super) fn sailing(
         component: usize,
         object: &Object,
         course: &Course,
         scene: &TourScene,
         wall: &Wall,
+        loop_seconds: Option<f64>,
     ) -> Result<Self, CourseError> {
         let length = contact_length(object, scene, wall);
-        let sailed = SailedCourse::new(course, length, AtEnd::default())?;
-        Ok(Self::new(component, wall, Hull::of_course(course, length), Some(sailed)))
+        let mut sailed = SailedCourse::new(course, length, AtEnd::default())?;
+        if let Some(seconds) = loop_seconds {
+            sailed = sailed.with_whole_rounds(seconds)?;
+        }
+        Ok(Self::new(component, wall, Hull::of_course(course, length), Way::Course(sailed)))
     }
 
-    fn new(component: usize, wall: &Wall, hull: Hull, course: Option<SailedCourse>) -> Self {
-        let first_heading = course.as_ref().map_or(0.0, |course| course.at(0.0).heading);
+    /// A body that is where `pose` says.
+    pub(super) fn led(component: usize, wall: &Wall, pose: BodyPose) -> Self {
+        // Its hull plays no part.
+        let hull = Hull::new(&Floating::of_draft(1.0), 1.0);
+        Self::new(component, wall, hull, Way::Led(pose))
+    }
+
+    fn new(component: usize, wall: &Wall, hull: Hull, way: Way) -> Self {
+        let first_heading = if let Way::Course(course) = &way { course.at(0.0).heading } else { 0.0 };
         let berth = Berth { center: wall.point(0.0, 0.0), heading: rest_heading(wall.along, first_heading) };
-        Self { component, wall: *wall, berth, wake: Wake::new(&hull), body: FloatingBody::new(hull), course }
+        Self { component, wall: *wall, berth, wake: Wake::new(&hull), body: FloatingBody::new(hull), way }
     }
 
     /// Whether it moves without waves, too.
     pub(super) fn sails(&self) -> bool {
-        self.course.is_some()
+        matches!(self.way, Way::Course(_))
+    }
+
+    /// Whether it may be seen from its other side, as its mirrored copy.
+    pub(super) fn returns(&self) -> bool {
+        !matches!(self.way, Way::Anchored)
     }
 
     /// Whether waves do not move it.
@@ -95,19 +119,19 @@ impl Vessel {
 
     /// Takes it on by one step, to `seconds`.
     pub(super) fn step(&mut self, seconds: f64, water: &impl WaterHeight) {
-        let Sailing { center, heading, .. } = self.way(seconds);
-        self.body.step(water, center, heading);
+        if let Some(Sailing { center, heading, .. }) = self.sailing_at(seconds) {
+            self.body.step(water, center, heading);
+        }
     }
 
     /// Presses on the water as it does at `seconds`.
     pub(super) fn press(&self, seconds: f64, ripples: &mut Ripples) {
-        let Sailing { center, heading, speed } = self.way(seconds);
-        let patch = match &self.course {
-            None => {
-                let whole = self.body.pressure(center, heading);
-                PressurePatch { head: ANSWER * whole.head, tilt: ANSWER * whole.tilt, ..whole }
-            }
-            Some(_) => self.wake.pressure(center, heading, speed),
+        let Some(Sailing { center, heading, speed }) = self.sailing_at(seconds) else { return };
+        let patch = if self.sails() {
+            self.wake.pressure(center, heading, speed)
+        } else {
+            let whole = self.body.pressure(center, heading);
+            PressurePatch { head: ANSWER * whole.head, tilt: ANSWER * whole.tilt, ..whole }
         };
         let grid = *ripples.grid();
         patch.press(&grid, |cell, pressure| ripples.press_cell(cell, pressure));
@@ -115,7 +139,11 @@ impl Vessel {
 
     /// How far it is from its rest at `seconds`, as its wall shows it.
     pub(super) fn pose(&self, seconds: f64) -> BodyPose {
-        self.way(seconds).pose_on_waves(&self.berth, &self.body.pose())
+        match &self.way {
+            Way::Led(pose) => *pose,
+            Way::Course(course) => course.at(seconds).pose_on_waves(&self.berth, &self.body.pose()),
+            Way::Anchored => self.anchored_at().pose_on_waves(&self.berth, &self.body.pose()),
+        }
     }
 
     /// Where a pose brings the wall; `None` when that is where it rests.
@@ -129,10 +157,18 @@ impl Vessel {
         Some(Placement { origin, along: turned(resting.along), up: turned(resting.up) })
     }
 
-    fn way(&self, seconds: f64) -> Sailing {
+    /// Its way over the water at a time; `None` for one that is led.
+    fn sailing_at(&self, seconds: f64) -> Option<Sailing> {
+        match &self.way {
+            Way::Anchored => Some(self.anchored_at()),
+            Way::Course(course) => Some(course.at(seconds)),
+            Way::Led(_) => None,
+        }
+    }
+
+    fn anchored_at(&self) -> Sailing {
         let Berth { center, heading } = self.berth;
-        let anchored = Sailing { center: DVec2::new(center.x, center.z), heading, speed: 0.0 };
-        self.course.as_ref().map_or(anchored, |course| course.at(seconds))
+        Sailing { center: DVec2::new(center.x, center.z), heading, speed: 0.0 }
     }
 }
 

@@ -15,7 +15,7 @@ use super::PictureTourSystems;
 use super::asset::{BakedTourLoader, TourAsset, TourLoader};
 use super::camera::TourPath;
 use super::material::{ColorPolicy, TourMaterial};
-use super::motion::TourMotion;
+use super::motion::{TourMotion, TourWeather};
 use super::spawn::{self, ShownTour, TourAssets};
 use crate::assemble::AssembleError;
 use crate::assemble::AssembledTour;
@@ -221,8 +221,10 @@ fn finish(
             for remark in built.remarks.iter().chain(&built.solution.report.remarks) {
                 info!("{remark}");
             }
-            commands.entity(entity).try_insert(TourMotion::new(asset.tour(), &built.scene));
-            spawn::show(commands, assets, entity, built, *policy, layers, before);
+            let motion = TourMotion::new(asset.tour(), &built.scene);
+            spawn::show(commands, assets, entity, built, motion.simulation(), *policy, layers, before);
+            let weather = TourWeather(motion.simulation().weather_to_come());
+            commands.entity(entity).try_insert(motion).try_insert_if_new(weather);
             match asset.tour().path.as_ref().and_then(CameraPath::way) {
                 Some(path) => commands.entity(entity).try_insert(TourPath(path)),
                 None => commands.entity(entity).try_remove::<TourPath>(),

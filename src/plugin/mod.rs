@@ -18,7 +18,7 @@ pub use asset::{BakedTourLoadError, TourAsset, TourLoadError};
 pub use camera::{Guide, TourCamera, TourCameraState, TourPath, TourProjection};
 pub use load::{PictureTour, TourFailed, TourReady};
 pub use material::ColorPolicy;
-pub use motion::{TouchWater, TourMotion};
+pub use motion::{ObjectMotion, TouchWater, TourMotion, TourWeather};
 pub use spawn::{SolvedTour, TourPart};
 
 use bevy::asset::AssetEventSystems;
@@ -35,8 +35,8 @@ pub enum PictureTourSystems {
     /// Takes over finished tours; reads keys, pointer, touch and gamepad into what each camera wishes. Set
     /// [`TourCamera::listens`] before it.
     Input,
-    /// Steps water, wind and bodies. Write [`TouchWater`] and change a [`TourMotion`]'s wind before it; ask it for the water
-    /// after it.
+    /// Steps water, wind and bodies. Write [`TouchWater`], change a tour's [`TourWeather`] and its parts' [`ObjectMotion`]
+    /// before it; ask [`TourMotion`] for the water after it.
     Simulate,
     /// Moves cameras. Change a [`TourCameraState`]'s pose after it to have the last word.
     Move,
@@ -62,7 +62,9 @@ impl Plugin for PictureTourPlugin {
             Update,
             (
                 (stir::stir, camera::read_devices).chain().in_set(PictureTourSystems::Input),
-                motion::advance.in_set(PictureTourSystems::Simulate),
+                (motion::change_weather, motion::change_objects, motion::advance)
+                    .chain()
+                    .in_set(PictureTourSystems::Simulate),
                 camera::move_cameras.in_set(PictureTourSystems::Move),
                 camera::place_cameras.in_set(PictureTourSystems::Upload),
             ),

@@ -9,14 +9,15 @@ use bevy::math::DVec2;
 use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
-use crate::motion::{MEMORY_STEPS, STEP_SECONDS, Simulation};
+use super::material::TourMaterial;
+use super::spawn::{ShownTour, TourPart};
+use crate::motion::{LoopError, STEP_SECONDS, Simulation};
 use crate::scene::TourScene;
-use crate::tour::{Tour, Wind};
+use crate::tour::{Motion, Tour};
 use crate::water::WaterPoint;
+use crate::water::body::BodyPose;
 use crate::water::ripples::Ripples;
-
-/// Most steps that are taken rather than start over.
-const ONWARD: f64 = 240.0;
+use crate::wind::Weather;
 
 /// Most steps of a frame.
 const MOST_STEPS: u32 = 4;
@@ -39,8 +40,6 @@ pub struct TourMotion {
     pub still: bool,
     /// Seconds that were dropped because frames were too slow.
     pub dropped_seconds: f64,
-    /// Whether anything was done to it that [`go_to`](Self::go_to) forgets.
-    touched: bool,
     /// Whether what is shown is older than the simulation.
     changed: bool,
     /// Whether the still picture is shown.
@@ -73,22 +72,9 @@ impl TourMotion {
             paused: false,
             still: false,
             dropped_seconds: 0.0,
-            touched: false,
             changed: true,
             shows_still: false,
         }
-    }
-
-    /// The wind towards which it changes.
-    #[must_use]
-    pub fn wind(&self) -> Wind {
-        self.simulation.wind_to_come()
-    }
-
-    /// Lets the wind change to this one, within a few seconds.
-    pub fn set_wind(&mut self, wind: &Wind) {
-        self.simulation.set_wind(wind);
-        self.touched = true;
     }
 
     /// Seconds since the tour's start.
@@ -97,17 +83,20 @@ impl TourMotion {
         self.simulation.seconds()
     }
 
+    /// Lets the tour begin anew and repeat after so many seconds, without a seam.
+    ///
+    /// # Errors
+    ///
+    /// As [`Simulation::looped`]; the tour then goes on as it did.
+    pub fn repeat_after(&mut self, seconds: f64) -> Result<(), LoopError> {
+        self.simulation = self.simulation.looped(seconds)?;
+        (self.due, self.changed) = (0.0, true);
+        Ok(())
+    }
+
     /// Jumps to a time since the tour's start, as if nothing had been touched.
     pub fn go_to(&mut self, seconds: f64) {
-        // Within what is remembered going on and starting over are the same.
-        let step = (seconds / STEP_SECONDS).round();
-        let ahead = step - self.simulation.steps() as f64;
-        if !self.touched && step <= MEMORY_STEPS as f64 && (0.0..=ONWARD).contains(&ahead) {
-            (0..ahead as u32).for_each(|_| self.simulation.step());
-        } else {
-            self.simulation.go_to(seconds);
-            self.touched = false;
-        }
+        self.simulation.go_to(seconds);
         self.due = 0.0;
         self.changed = true;
     }
@@ -175,6 +164,55 @@ impl TourMotion {
     }
 }
 
+/// The weather of a tour, on its entity from when it is shown: one wind for trees, clouds, water and boats. Change it and
+/// everything follows within a few seconds; a wind of 0 is the still picture again. A tour spawned with it has it from the
+/// start.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Deref, DerefMut)]
+pub struct TourWeather(pub Weather);
+
+/// How an object of a tour moves, on its part. Change it, and it moves in another way from now on.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub enum ObjectMotion {
+    /// By itself, as a tour's file could say it: it sways, floats at anchor, sails a course, or stays.
+    Own(Motion),
+    /// As the game says: so far from where it rests in the picture. Its mirror image and its mask follow; the water does not
+    /// feel it.
+    Led(BodyPose),
+}
+
+/// Passes on the weather that games changed.
+pub(super) fn change_weather(mut tours: Query<(&mut TourMotion, &TourWeather), Changed<TourWeather>>) {
+    for (mut motion, weather) in &mut tours {
+        motion.simulation.set_weather(weather);
+    }
+}
+
+/// Lets objects move as games say.
+pub(super) fn change_objects(
+    mut tours: Query<(&mut TourMotion, &ShownTour)>,
+    objects: Query<(&ObjectMotion, &Name, &ChildOf, Ref<TourPart>), Changed<ObjectMotion>>,
+    mut materials: ResMut<Assets<TourMaterial>>,
+) {
+    for (object, name, root, part) in &objects {
+        // What was just spawned moves as the file says already.
+        let (false, Ok((mut motion, shown))) = (part.is_added(), tours.get_mut(root.parent())) else {
+            continue;
+        };
+        let set = match object {
+            ObjectMotion::Own(own) => motion.simulation.set_motion(name, own),
+            ObjectMotion::Led(pose) if motion.simulation.lead(name, *pose) => Ok(()),
+            ObjectMotion::Led(_) => {
+                Err("it is no object of its tour, or its pose is no finite one".to_owned())
+            }
+        };
+        if let Err(reason) = set {
+            warn!("\"{name}\" cannot move so: {reason}");
+        }
+        motion.changed = true;
+        shown.follow_moves(motion.simulation(), &mut materials);
+    }
+}
+
 /// Stirs what is asked for and steps all tours.
 pub(super) fn advance(
     mut tours: Query<&mut TourMotion>,
@@ -184,7 +222,7 @@ pub(super) fn advance(
     for touch in touches.read() {
         if let Ok(mut motion) = tours.get_mut(touch.tour) {
             let at = touch.at.as_dvec2();
-            motion.touched |= motion.simulation.touch(at, f64::from(touch.radius), f64::from(touch.impulse));
+            motion.simulation.touch(at, f64::from(touch.radius), f64::from(touch.impulse));
         }
     }
     for mut motion in &mut tours {

@@ -1,7 +1,7 @@
 //! The small float texture that tells the shaders about views and components.
 //!
 //! Rows 0 to 7 belong to views and say where each finds the components, row 8 says what the components are, row 9 how they
-//! sway, row 10 what the water does; the layout stands in `material/tour.wgsl` and `material/waves.wgsl`. It is written in place each frame that anything changed, so no material is touched.
+//! sway, row 10 what water and clouds do; the layout stands in `material/tour.wgsl` and `material/waves.wgsl`. It is written in place each frame that anything changed, so no material is touched.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::Image;
@@ -15,6 +15,7 @@ use crate::scene::Placement;
 use crate::scene::Surface;
 use crate::water::ripples::Ripples;
 use crate::water::sea::SeaSurface;
+use crate::wind::CloudCopy;
 use crate::wind::SwayRecord;
 
 /// How many cameras can look at one tour in one frame.
@@ -30,6 +31,8 @@ const _: () = assert!(FIRST_PLACEMENT + MAX_COMPONENTS * TEXELS_PER_PLACEMENT <=
 const COMPONENT_ROW: usize = MAX_VIEWS;
 const SWAY_ROW: usize = MAX_VIEWS + 1;
 const WATER_ROW: usize = MAX_VIEWS + 2;
+/// First of the two texels of the water's row that are the clouds'.
+const CLOUDS: usize = 6;
 const HEIGHT: usize = MAX_VIEWS + 3;
 
 /// One camera's look at a tour.
@@ -45,6 +48,8 @@ pub(super) struct ViewRecord {
     pub ground: Option<usize>,
     /// Where each wall is, by component.
     pub placements: Vec<Option<Placement>>,
+    /// Share of the mirrored copy, by component; it may be shorter.
+    pub mirrored: Vec<f32>,
 }
 
 /// The texture's values.
@@ -56,6 +61,7 @@ impl Records {
     pub(super) fn new() -> Self {
         let mut records = Self(vec![Vec4::ZERO; WIDTH * HEIGHT]);
         records.set_views(&[]);
+        records.set_clouds(&CloudCopy::STILL);
         records
     }
 
@@ -80,9 +86,10 @@ impl Records {
                 texels[8 + place / 4][place % 4] = index as f32;
             }
             let placements = texels[FIRST_PLACEMENT..].chunks_exact_mut(TEXELS_PER_PLACEMENT);
-            for (texels, placement) in placements.zip(&view.placements) {
+            for (index, (texels, placement)) in placements.zip(&view.placements).enumerate() {
                 if let Some(Placement { origin, along, up }) = placement {
                     texels.copy_from_slice(&[origin, along, up].map(|vector| vector.as_vec3().extend(0.0)));
+                    texels[0].w = view.mirrored.get(index).copied().unwrap_or(0.0);
                 }
             }
         }
@@ -127,7 +134,7 @@ impl Records {
     /// Writes what the water does.
     pub(super) fn set_water(&mut self, sea: Option<&SeaSurface>, ripples: Option<&Ripples>) {
         let texels = &mut self.0[WATER_ROW * WIDTH..(WATER_ROW + 1) * WIDTH];
-        texels[..6].fill(Vec4::ZERO);
+        texels[..CLOUDS].fill(Vec4::ZERO);
         if let Some(sea) = sea.filter(|sea| sea.present_gain() > 0.0) {
             // Variance in any one direction is half of the whole.
             let half = 0.5 * sea.present_gain().powi(2);
@@ -145,6 +152,13 @@ impl Records {
             let origin = grid.origin.as_vec2();
             texels[0].w = 1.0;
             texels[1] = Vec4::new(origin.x, origin.y, grid.cell as f32, texels[1].w);
+        }
+    }
+
+    /// Writes where the clouds are.
+    pub(super) fn set_clouds(&mut self, clouds: &[CloudCopy; 2]) {
+        for (texel, copy) in self.0[WATER_ROW * WIDTH + CLOUDS..].iter_mut().zip(clouds) {
+            *texel = copy.offset_px.as_vec2().extend(copy.weight as f32).extend(0.0);
         }
     }
 

@@ -12,10 +12,11 @@ use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
 use super::atlas::{self, Atlas, Texels};
 use super::material::{ColorPolicy, TourMaterial, TourUniform};
-use super::motion::waves_image;
+use super::motion::{ObjectMotion, waves_image};
 use super::records::{Records, ViewRecord};
 use crate::assemble::AssembledTour;
 use crate::maps::Mipmapped;
+use crate::motion::Simulation;
 use crate::scene::{Role, Surface};
 
 /// What was solved and built for a tour: parameters, report, scene and maps. On the tour's entity once it is ready.
@@ -44,10 +45,28 @@ pub(super) struct ShownTour {
     pub image: Handle<Image>,
     /// Children, for a clean replacement.
     pub parts: Vec<Entity>,
-    /// Per part of `parts` its material, and that of its depth pass.
+    /// Per part of `parts` its material, and that of its depth pass; the water's is last.
     pub materials: Vec<[Handle<TourMaterial>; 2]>,
+    pub components: usize,
     /// The moving water.
     pub waves: Handle<Image>,
+}
+
+impl ShownTour {
+    /// Lets materials draw what can move now.
+    pub(super) fn follow_moves(&self, motion: &Simulation, materials: &mut Assets<TourMaterial>) {
+        for (index, handles) in self.materials.iter().enumerate() {
+            // The water is after all components.
+            let moves = if index < self.components { motion.moves(index) } else { motion.all_moves() };
+            for handle in handles {
+                if materials.get(handle).is_some_and(|material| material.moves != moves)
+                    && let Some(mut material) = materials.get_mut(handle)
+                {
+                    material.moves = moves;
+                }
+            }
+        }
+    }
 }
 
 /// The assets a tour is spawned into.
@@ -75,6 +94,7 @@ pub(super) fn show(
     assets: &mut TourAssets,
     root: Entity,
     tour: Arc<AssembledTour>,
+    motion: &Simulation,
     policy: ColorPolicy,
     layers: Option<&RenderLayers>,
     before: Option<&ShownTour>,
@@ -116,13 +136,18 @@ pub(super) fn show(
             policy,
             depth_only: false,
             water: false,
+            moves: motion.moves(index),
         };
         let mesh = assets.meshes.add(quad(corners(&component.surface)));
         let depth = assets.materials.add(material.depth_only());
         let material = assets.materials.add(material);
         // What turns or moves leaves its mesh's box.
         let unbounded = infinite || component.role == Role::Billboard;
-        spawner.part(&component.name, TourPart::Component(index), mesh, material, depth, unbounded);
+        let part =
+            spawner.part(&component.name, TourPart::Component(index), mesh, material, depth, unbounded);
+        if let Some(own) = motion.motion_of(&component.name) {
+            spawner.commands.entity(part).insert(ObjectMotion::Own(own.clone()));
+        }
     }
     if scene.water {
         let map = assets.images.add(image_of(atlas.texture));
@@ -135,6 +160,7 @@ pub(super) fn show(
             policy,
             depth_only: false,
             water: true,
+            moves: motion.all_moves(),
         };
         let reach = match scene.last_layer().surface {
             Surface::Wall(wall) => wall.span[1] as f32,
@@ -150,6 +176,7 @@ pub(super) fn show(
         let material = assets.materials.add(material);
         spawner.part("water", TourPart::Water, mesh, material, depth, false);
     }
+    let components = scene.components.len();
     let Spawner { parts, materials, .. } = spawner;
     // Somebody may have despawned the root in this very frame; its parts must not outlive it.
     let orphans = parts.clone();
@@ -160,7 +187,7 @@ pub(super) fn show(
             }
         }
     });
-    let shown = ShownTour { views: Vec::new(), records, image, parts, materials, waves };
+    let shown = ShownTour { views: Vec::new(), records, image, parts, materials, components, waves };
     commands.entity(root).try_insert((SolvedTour(tour), shown));
 }
 
@@ -222,7 +249,7 @@ impl Spawner<'_, '_, '_> {
         material: Handle<TourMaterial>,
         depth: Handle<TourMaterial>,
         unbounded: bool,
-    ) {
+    ) -> Entity {
         let bundle = (Mesh3d(mesh), Transform::default(), Visibility::default());
         let shown = self
             .commands
@@ -255,6 +282,7 @@ impl Spawner<'_, '_, '_> {
         }
         self.parts.push(shown);
         self.materials.push([material, depth]);
+        shown
     }
 }
 

@@ -16,7 +16,7 @@ use super::spawn::{DepthPass, ShownTour, SolvedTour, TourPart};
 use crate::scene::MAX_COMPONENTS;
 use crate::scene::TourScene;
 use crate::scene::{Arrangement, Placement, Surface};
-use crate::wind::SwayRecord;
+use crate::wind::{CloudCopy, SwayRecord};
 
 /// Per camera: the sort distance of each part's mesh, view depth as Bevy counts it (nearer is greater).
 #[derive(Resource, ExtractResource, Clone, Debug, Default)]
@@ -48,10 +48,10 @@ pub(super) fn look_at_tours(
     for (root, tour_transform, solved, mut shown, mut motion, layers) in &mut tours {
         let layers = layers.cloned().unwrap_or_default();
         let tour_from_world = affine(tour_transform).inverse();
-        let moved = motion
-            .as_ref()
-            .filter(|motion| !motion.still)
-            .map_or_else(Vec::new, |motion| motion.simulation().moment().placements.clone());
+        let moment =
+            motion.as_ref().filter(|motion| !motion.still).map(|motion| motion.simulation().moment());
+        let (moved, mirrored) = moment
+            .map_or_else(Default::default, |moment| (moment.placements.clone(), moment.mirrored.clone()));
         let mut views = Vec::new();
         for (camera, settings, transform, state, seen) in &cameras {
             if !settings.is_active || !seen.unwrap_or(&everything_else).intersects(&layers) {
@@ -91,6 +91,7 @@ pub(super) fn look_at_tours(
                 walls_near_to_far: solved.scene.walls_of(&near_to_far).collect(),
                 ground: solved.scene.ground(),
                 placements: at_rest_unless_placed(&solved.scene, placements),
+                mirrored: mirrored.clone(),
             });
         }
         let shown = shown.bypass_change_detection();
@@ -100,8 +101,11 @@ pub(super) fn look_at_tours(
             if motion.still {
                 shown.records.set_sways(&[SwayRecord::default(); MAX_COMPONENTS]);
                 shown.records.set_water(None, None);
+                shown.records.set_clouds(&CloudCopy::STILL);
             } else {
-                shown.records.set_sways(&motion.simulation().moment().sways);
+                let moment = motion.simulation().moment();
+                shown.records.set_sways(&moment.sways);
+                shown.records.set_clouds(&moment.clouds);
                 let ripples = shown_ripples(motion.simulation().ripples());
                 shown.records.set_water(motion.simulation().sea(), ripples);
                 if let Some(bytes) =

@@ -175,6 +175,11 @@ fn billboard_wall(
             }
         }
     }
+    if plan.support == Support::Water {
+        // What returns on a course shows its mirrored copy in the same rectangle.
+        let reach = span[1].max(-span[0]);
+        span = [-reach, reach];
+    }
     Wall { foot, along, span, rise }
 }
 

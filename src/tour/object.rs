@@ -132,6 +132,40 @@ pub struct Floating {
     pub roll_period_seconds: Option<f64>,
 }
 
+impl Floating {
+    /// A body that sits so deep in the water, meters; all else follows from it.
+    #[must_use]
+    pub fn of_draft(draft: f64) -> Self {
+        Self {
+            draft,
+            length: None,
+            beam: None,
+            mass: None,
+            heave_damping: None,
+            roll_damping: None,
+            heave_period_seconds: None,
+            roll_period_seconds: None,
+        }
+    }
+}
+
+impl Sway {
+    /// A plant of a kind, with all its numbers.
+    #[must_use]
+    pub fn of_kind(kind: SwayKind) -> Self {
+        Self {
+            kind,
+            root: None,
+            tip: None,
+            frequency_hz: None,
+            damping: None,
+            amplitude: None,
+            period_seconds: None,
+            seed: None,
+        }
+    }
+}
+
 /// A way over the water.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Course {

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Accumulated, Look, OPAQUE, Reference};
+use super::{Accumulated, Look, OPAQUE, Reference, cross_faded};
 use crate::camera::Ray;
 use crate::maps::MIP_LEVELS;
 use crate::maps::Mipmapped;
@@ -76,12 +76,14 @@ impl Reference<'_> {
             surface => surface.meet(up.ray).map(|t| (t, mirror(up.ray.at(t)))),
         };
         let [r, g, b, _] = match met {
-            Some((t, point)) => self.read_mirrored(last, look, &up, t, point, point),
+            Some((t, point)) => self.read_mirrored(last, look, &up, t, point, point, None),
             None => {
                 let away = mirror(up.ray.direction);
                 let (at, depth) = self.eye.see_far(away);
                 let level = look.level(self.scene, away, depth).max(self.blur_level(&up, 1.0));
-                self.at_angle(last.sample(at, level), up.ray.direction, up.grazing)
+                // In the water clouds that rise sink.
+                let sky = self.drifted(last, at, level, DVec2::new(1.0, -1.0));
+                self.at_angle(sky, up.ray.direction, up.grazing)
             }
         };
         light.add([r, g, b, 1.0]);
@@ -94,11 +96,15 @@ impl Reference<'_> {
         let component = &self.scene.components[index];
         debug_assert!(component.role != Role::LastLayer, "the last layer is met by all rays");
         let met = self.meet(look, index, up.ray)?;
-        (met.point.y >= 0.0)
-            .then(|| (met.t, self.read_mirrored(map, look, up, met.t, mirror(met.point), mirror(met.rest.0))))
+        (met.point.y >= 0.0).then(|| {
+            let copy = self.mirrored_copy(index, met.rest.0).map(|(copy, share)| (mirror(copy), share));
+            let [point, rest] = [met.point, met.rest.0].map(mirror);
+            (met.t, self.read_mirrored(map, look, up, met.t, point, rest, copy))
+        })
     }
 
-    /// A reflection map at the mirror image `rest` that is seen at `point`, `t` meters behind the water.
+    /// A reflection map at the mirror image `rest` that is seen at `point`, `t` meters behind the water; `copy` is what a
+    /// mirrored copy shows there, with its share.
     fn read_mirrored(
         &self,
         map: &Mipmapped,
@@ -107,11 +113,17 @@ impl Reference<'_> {
         t: f64,
         point: DVec3,
         rest: DVec3,
+        copy: Option<(DVec3, f32)>,
     ) -> [f32; 4] {
         let (at, depth) = self.eye.see(rest);
         let behind = t / (t + up.to_water);
         let level = look.level(self.scene, point - look.position, depth).max(self.blur_level(up, behind));
-        self.at_angle(map.sample(at, level), self.scene.camera.pose.position - rest, up.grazing)
+        let texel = map.sample(at, level);
+        let texel = match copy {
+            Some((copy, share)) => cross_faded(texel, map.sample(self.eye.see(copy).0, level), share),
+            None => texel,
+        };
+        self.at_angle(texel, self.scene.camera.pose.position - rest, up.grazing)
     }
 
     /// The mip level as blurred as unresolved waves make what lies `behind` the water by this share of the way.

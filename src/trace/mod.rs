@@ -18,16 +18,16 @@ use crate::camera::Ray;
 use crate::maps::Maps;
 use crate::maps::Mipmapped;
 use crate::maps::mip_level;
+use crate::motion::Moment;
 use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::picture::color::srgb_from_linear3;
 use crate::scene::Arrangement;
 use crate::scene::Meeting;
-use crate::scene::Placement;
 use crate::scene::Surface;
 use crate::scene::TourScene;
 use crate::water::{StillWater, WaterSurface};
-use crate::wind::SwayRecord;
+use crate::wind::CloudCopy;
 
 /// Less light than this is left behind a layer: half a display code cannot change any more.
 const OPAQUE: f32 = 1.0 / 8192.0;
@@ -37,8 +37,7 @@ pub struct Reference<'a> {
     scene: &'a TourScene,
     maps: &'a Maps,
     water: &'a dyn WaterSurface,
-    moved: &'a [Option<Placement>],
-    sways: &'a [SwayRecord],
+    moment: Option<&'a Moment>,
     eye: Eye,
 }
 
@@ -53,7 +52,7 @@ impl<'a> Reference<'a> {
     #[must_use]
     pub fn new(scene: &'a TourScene, maps: &'a Maps) -> Self {
         let eye = Eye::of(&scene.camera);
-        Self { scene, maps, water: &StillWater, moved: &[], sways: &[], eye }
+        Self { scene, maps, water: &StillWater, moment: None, eye }
     }
 
     /// The same with moving water.
@@ -62,10 +61,10 @@ impl<'a> Reference<'a> {
         Self { water, ..self }
     }
 
-    /// The same with walls elsewhere than they rest and plants that sway, both by component; they may be shorter.
+    /// The same at a moment of the scene's motion.
     #[must_use]
-    pub fn with_motion(self, moved: &'a [Option<Placement>], sways: &'a [SwayRecord]) -> Self {
-        Self { moved, sways, ..self }
+    pub fn at_moment(self, moment: &'a Moment) -> Self {
+        Self { moment: Some(moment), ..self }
     }
 
     /// Renders what `camera` sees, `samples` rays a pixel (at least 1; one goes through the pixel's center), on all
@@ -74,7 +73,8 @@ impl<'a> Reference<'a> {
     pub fn render(&self, camera: &PinholeCamera, samples: u32) -> Picture {
         let size = camera.intrinsics.size.max(UVec2::ONE);
         let offsets = sample_offsets(samples);
-        let look = Look::of(camera, self.scene.arranged_for(camera.pose.position, self.moved));
+        let moved = self.moment.map_or(&[][..], |moment| &moment.placements);
+        let look = Look::of(camera, self.scene.arranged_for(camera.pose.position, moved));
         let mut pixels = vec![[0_u8; 3]; size.x as usize * size.y as usize];
         pixels.par_chunks_mut(size.x as usize).enumerate().for_each(|(row, pixels)| {
             for (column, pixel) in pixels.iter_mut().enumerate() {
@@ -100,9 +100,9 @@ impl<'a> Reference<'a> {
             if let Some(met) = self.meet(look, index, ray) {
                 // At infinity only the direction counts.
                 let texel = if met.t.is_finite() {
-                    self.read(&self.maps.components[index].texture, look, met.point, met.rest.0)
+                    self.read(index, look, &met)
                 } else {
-                    self.read_far(&self.maps.components[index].texture, look, ray.direction)
+                    self.read_far(look, ray.direction)
                 };
                 light.add(texel);
                 if light.left < OPAQUE {
@@ -113,30 +113,54 @@ impl<'a> Reference<'a> {
         let last = if self.scene.water && ray.direction.y < 0.0 {
             self.mirrored(ray, look)
         } else {
-            let [r, g, b, _] = self.read_far(&self.maps.components[0].texture, look, ray.direction);
+            let [r, g, b, _] = self.read_far(look, ray.direction);
             [r, g, b]
         };
         light.add([last[0], last[1], last[2], 1.0]);
         light.color
     }
 
-    /// A map at a point `rest` that is seen at `point`.
-    fn read(&self, map: &Mipmapped, look: &Look, point: DVec3, rest: DVec3) -> [f32; 4] {
-        let (at, depth) = self.eye.see(rest);
-        map.sample(at, look.level(self.scene, point - look.position, depth))
+    /// A component's texture map where it is met.
+    fn read(&self, index: usize, look: &Look, met: &Meeting) -> [f32; 4] {
+        let map = &self.maps.components[index].texture;
+        let (at, depth) = self.eye.see(met.rest.0);
+        let level = look.level(self.scene, met.point - look.position, depth);
+        let texel = map.sample(at, level);
+        match self.mirrored_copy(index, met.rest.0) {
+            Some((copy, share)) => cross_faded(texel, map.sample(self.eye.see(copy).0, level), share),
+            None => texel,
+        }
     }
 
-    /// A map infinitely far in a direction.
-    fn read_far(&self, map: &Mipmapped, look: &Look, direction: DVec3) -> [f32; 4] {
+    /// The last layer's texture map infinitely far in a direction.
+    fn read_far(&self, look: &Look, direction: DVec3) -> [f32; 4] {
         let (at, depth) = self.eye.see_far(direction);
-        map.sample(at, look.level(self.scene, direction, depth))
+        let level = look.level(self.scene, direction, depth);
+        self.drifted(&self.maps.components[0].texture, at, level, DVec2::ONE)
+    }
+
+    /// A map of the sky where its clouds are now; `way` turns their way round, as water does.
+    fn drifted(&self, map: &Mipmapped, at: PicturePoint, level: f32, way: DVec2) -> [f32; 4] {
+        let copies = self.moment.map_or(CloudCopy::STILL, |moment| moment.clouds);
+        let [first, second] = copies.map(|copy| {
+            let texel = map.sample(PicturePoint(at.0 - copy.offset_px * way), level);
+            texel.map(|channel| copy.weight as f32 * channel)
+        });
+        std::array::from_fn(|channel| first[channel] + second[channel])
+    }
+
+    /// What the mirrored copy of a wall shows where the point `rest` of it is, and the copy's share if it has any.
+    fn mirrored_copy(&self, index: usize, rest: DVec3) -> Option<(DVec3, f32)> {
+        let share = *self.moment?.mirrored.get(index)?;
+        let Surface::Wall(wall) = &self.scene.components[index].surface else { return None };
+        (share > 0.0).then(|| (wall.point(-wall.along_of(rest), rest.y), share))
     }
 
     /// Where a ray meets a component, and the point that is there when nothing moves.
     fn meet(&self, look: &Look, index: usize, ray: Ray) -> Option<Meeting> {
         let mut met = look.arrangement.meet(self.scene, index, ray)?;
         if let (Surface::Wall(wall), Some(sway)) =
-            (&self.scene.components[index].surface, self.sways.get(index))
+            (&self.scene.components[index].surface, self.moment.and_then(|moment| moment.sways.get(index)))
         {
             let seen = DVec2::new(wall.along_of(met.rest.0), met.rest.0.y).as_vec2();
             let rest = sway.rest_point(seen);
@@ -173,6 +197,14 @@ impl Look {
         let texels_per_meter = scene.camera.intrinsics.focal_px / depth;
         mip_level(texels_per_meter * self.forward.dot(away).max(0.0) / self.focal_px)
     }
+}
+
+/// A texel with coverage and the one that takes its place, by a share. Twin of `cross_faded` in `tour.wgsl`.
+fn cross_faded(texel: [f32; 4], other: [f32; 4], share: f32) -> [f32; 4] {
+    let between = |a: f32, b: f32| a + share * (b - a);
+    let coverage = between(texel[3], other[3]);
+    let light = |c: usize| between(texel[3] * texel[c], other[3] * other[c]) / coverage.max(1e-6);
+    [light(0), light(1), light(2), coverage]
 }
 
 /// Front-to-back compositing in linear light.

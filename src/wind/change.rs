@@ -1,4 +1,4 @@
-//! A wind that is changed at run time and follows gently.
+//! Weather that is changed at run time and follows gently.
 
 use super::{FASTEST_WIND, sound_speed};
 use crate::tour::Wind;
@@ -9,63 +9,88 @@ const EASE_SECONDS: f64 = 1.0;
 /// Multiples of [`EASE_SECONDS`] after which a change has come wholly.
 const DONE: f64 = 6.0;
 
-/// The wind as a function of time and of one time-stamped change. It never jumps, and it arrives exactly, also at 0.
-///
-/// Speed, direction (the shorter way round) and gusts ease; seed and period belong to what was built from them.
+/// How many times as high as the wind raises them waves may be asked to be.
+pub const HIGHEST_WAVES: f64 = 4.0;
+
+/// The wind, and how high its waves are.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ChangingWind {
-    before: Wind,
-    after: Wind,
+pub struct Weather {
+    /// The wind.
+    pub wind: Wind,
+    /// How many times as high as this wind raises them the waves are: 0 (none) to [`HIGHEST_WAVES`].
+    pub waves: f64,
+}
+
+impl From<Wind> for Weather {
+    fn from(wind: Wind) -> Self {
+        Self { wind, waves: 1.0 }
+    }
+}
+
+/// The weather as a function of time and of one time-stamped change. It never jumps, and it arrives exactly, also at 0.
+///
+/// Speed, direction (the shorter way round), gusts and waves ease; seed and period belong to what was built from them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChangingWeather {
+    before: Weather,
+    after: Weather,
     since: f64,
 }
 
-impl ChangingWind {
-    /// A wind that has always blown as it does.
+impl ChangingWeather {
+    /// Weather that has always been as it is.
     #[must_use]
-    pub fn steady(wind: Wind) -> Self {
-        Self { before: wind, after: wind, since: 0.0 }
+    pub fn steady(weather: Weather) -> Self {
+        Self { before: weather, after: weather, since: 0.0 }
     }
 
-    /// What the wind is on its way to, or is.
+    /// What the weather is on its way to, or is.
     #[must_use]
-    pub fn target(&self) -> Wind {
+    pub fn target(&self) -> Weather {
         self.after
     }
 
-    /// Lets the wind turn to `wind`, from what it is at `seconds`. Numbers are brought into their ranges; asking for
-    /// the wind it already turns to, or at no finite time, does nothing.
-    pub fn change(&mut self, seconds: f64, wind: Wind) {
+    /// Lets the weather turn to another, from what it is at `seconds`, and says whether it does. Numbers are brought into
+    /// their ranges, what is none stays as it was; asking for the weather it already turns to, or at no finite time, does
+    /// nothing.
+    pub fn change(&mut self, seconds: f64, weather: Weather) -> bool {
         let number = |value: f64, old: f64| if value.is_finite() { value } else { old };
+        let (wind, old) = (weather.wind, self.after.wind);
         let wind = Wind {
-            speed: sound_speed(number(wind.speed, self.after.speed)).min(FASTEST_WIND),
-            direction_deg: number(wind.direction_deg, self.after.direction_deg),
-            gusts: number(wind.gusts, self.after.gusts).clamp(0.0, 1.0),
-            ..self.after
+            speed: sound_speed(number(wind.speed, old.speed)).min(FASTEST_WIND),
+            direction_deg: number(wind.direction_deg, old.direction_deg),
+            gusts: number(wind.gusts, old.gusts).clamp(0.0, 1.0),
+            ..old
         };
-        if wind != self.after && seconds.is_finite() {
-            *self = Self { before: self.at(seconds), after: wind, since: seconds };
+        let weather =
+            Weather { wind, waves: number(weather.waves, self.after.waves).clamp(0.0, HIGHEST_WAVES) };
+        let changes = weather != self.after && seconds.is_finite();
+        if changes {
+            *self = Self { before: self.at(seconds), after: weather, since: seconds };
         }
+        changes
     }
 
-    /// The wind at a time; before the last change it is what it was just then.
+    /// The weather at a time; before the last change it is what it was just then.
     #[must_use]
-    pub fn at(&self, seconds: f64) -> Wind {
+    pub fn at(&self, seconds: f64) -> Weather {
         let kept = kept((seconds - self.since) / EASE_SECONDS);
         if kept <= 0.0 {
             return self.after;
         }
-        let (before, after) = (self.before, self.after);
+        let (before, after) = (self.before.wind, self.after.wind);
         let back = (before.direction_deg - after.direction_deg + 180.0).rem_euclid(360.0) - 180.0;
-        Wind {
+        let wind = Wind {
             speed: after.speed + kept * (before.speed - after.speed),
             direction_deg: after.direction_deg + kept * back,
             gusts: after.gusts + kept * (before.gusts - after.gusts),
             ..after
-        }
+        };
+        Weather { wind, waves: self.after.waves + kept * (self.before.waves - self.after.waves) }
     }
 }
 
-/// Which part of the old wind is left: 1 before the change, then an exponential that ends.
+/// Which part of the old weather is left: 1 before the change, then an exponential that ends.
 ///
 /// An exponential forgets where it started, so a slider that is dragged, one change a frame, is followed as well.
 fn kept(since: f64) -> f64 {

@@ -28,6 +28,12 @@ pub struct CloudCopy {
     pub weight: f64,
 }
 
+impl CloudCopy {
+    /// Clouds that stand where the picture shows them.
+    pub const STILL: [Self; 2] =
+        [Self { offset_px: DVec2::ZERO, weight: 1.0 }, Self { offset_px: DVec2::ZERO, weight: 0.0 }];
+}
+
 /// The drift of clouds that follow the wind, for a picture of a focal length in pixels: U / √(1 + (U/20)²) · 0.0002 rad/s
 /// across. Clouds blown into the picture sink towards the horizon.
 #[must_use]
@@ -45,10 +51,7 @@ pub fn drift_of_wind(wind: &Wind, focal_length_px: f64) -> Drift {
 pub fn cloud_copies(drift: &Drift, period: f64, seconds: f64) -> [CloudCopy; 2] {
     let speed = if drift.speed.is_finite() { drift.speed.max(0.0) } else { 0.0 };
     if speed == 0.0 {
-        return [
-            CloudCopy { offset_px: DVec2::ZERO, weight: 1.0 },
-            CloudCopy { offset_px: DVec2::ZERO, weight: 0.0 },
-        ];
+        return CloudCopy::STILL;
     }
     // The tour's direction is 90 upwards, which is where a heading's z is negative and a picture's y too.
     let way = super::heading_of_degrees(drift.direction_deg) * speed * period;

@@ -2,7 +2,7 @@
 //!
 //! Everything is a function of time, seed and wind: frames may come in any order, every motion repeats without a seam,
 //! and a wind of 0 is the still picture to the bit. Only amplitudes depend on the wind's speed, so changing it makes
-//! nothing skip; [`ChangingWind`] lets it change gently.
+//! nothing skip; [`ChangingWeather`] lets it change gently.
 //!
 //! [`Plants`] turns time and wind into one [`SwayRecord`] a plant; [`SwayRecord::rest_point`] and its twin in
 //! `sway.wgsl` undo the motion of a point. [`cloud_copies`] moves the sky.
@@ -21,7 +21,7 @@ mod sway_tests;
 #[cfg(test)]
 mod tests;
 
-pub use change::ChangingWind;
+pub use change::{ChangingWeather, HIGHEST_WAVES, Weather};
 pub use clouds::{CloudCopy, cloud_copies, drift_of_wind};
 pub use gusts::Gusts;
 pub use oscillator::{LoopedSignal, Oscillator};

@@ -213,8 +213,25 @@ impl Plants {
     #[must_use]
     pub fn new(plants: Vec<Plant>, wind: &Wind) -> Self {
         let gusts = Gusts::new(wind.seed, number(Some(wind.period_seconds), 20.0, 4.0, 120.0));
-        let records = plants.iter().map(|plant| plant.record(0.0, &Wind::default(), &gusts)).collect();
-        Self { plants, gusts, records }
+        let mut all = Self { plants: Vec::new(), gusts, records: Vec::new() };
+        plants.into_iter().for_each(|plant| all.push(plant));
+        all
+    }
+
+    /// One more, at rest.
+    pub fn push(&mut self, plant: Plant) {
+        self.records.push(plant.record(0.0, &Wind::default(), &self.gusts));
+        self.plants.push(plant);
+    }
+
+    /// One less; those after it move up.
+    ///
+    /// # Panics
+    ///
+    /// Where there is no plant of this index.
+    pub fn remove(&mut self, index: usize) {
+        self.plants.remove(index);
+        self.records.remove(index);
     }
 
     /// Moves the plants to a time in a wind and gives their records, in their order.

@@ -146,12 +146,13 @@ fn a_change_of_wind_makes_no_jump() {
     for (kind, length) in KINDS {
         let mut plants = plants(&sway(kind), length, 9);
         let place = stand(length).tip.as_vec2();
-        let mut weather = ChangingWind::steady(wind(3.0));
-        weather.change(5.0, Wind { speed: 15.0, direction_deg: 130.0, gusts: 0.6, ..Wind::default() });
-        let mut previous = plants.update(4.9, &weather.at(4.9))[0].displacement(place);
+        let mut weather = ChangingWeather::steady(wind(3.0).into());
+        let storm = Wind { speed: 15.0, direction_deg: 130.0, gusts: 0.6, ..Wind::default() };
+        assert!(weather.change(5.0, storm.into()));
+        let mut previous = plants.update(4.9, &weather.at(4.9).wind)[0].displacement(place);
         for i in 1..600 {
             let seconds = 4.9 + f64::from(i) / 240.0;
-            let now = plants.update(seconds, &weather.at(seconds))[0].displacement(place);
+            let now = plants.update(seconds, &weather.at(seconds).wind)[0].displacement(place);
             // Some 0.25 lengths at most at some 2.4 Hz.
             let most = 0.25 * length as f32 * 15.0 / 240.0;
             assert!(

@@ -192,26 +192,26 @@ fn without_wind_the_sky_is_the_picture() {
 }
 
 #[test]
-fn a_changed_wind_comes_gently_and_wholly() {
-    let mut wind = ChangingWind::steady(Wind { direction_deg: 350.0, ..breeze(5.0) });
-    wind.change(10.0, Wind { direction_deg: 10.0, ..breeze(0.0) });
-    assert_eq!(wind.at(10.0).speed, 5.0);
+fn changed_weather_comes_gently_and_wholly() {
+    let mut wind = ChangingWeather::steady(Wind { direction_deg: 350.0, ..breeze(5.0) }.into());
+    assert!(wind.change(10.0, Weather { waves: 0.0, ..Wind { direction_deg: 10.0, ..breeze(0.0) }.into() }));
+    assert_eq!((wind.at(10.0).wind.speed, wind.at(10.0).waves), (5.0, 1.0));
     assert_eq!(wind.at(16.0), wind.target());
-    assert_eq!(wind.at(16.0).speed, 0.0);
+    assert_eq!((wind.at(16.0).wind.speed, wind.at(16.0).waves), (0.0, 0.0));
     for i in 0..360 {
-        let [before, now] = [i, i + 1].map(|i| wind.at(10.0 + f64::from(i) / 60.0));
+        let [before, now] = [i, i + 1].map(|i| wind.at(10.0 + f64::from(i) / 60.0).wind);
         let turn = wrapped_deg(now.direction_deg - before.direction_deg);
         assert!((before.speed - now.speed) < 0.1 && (-1e-9..0.5).contains(&turn), "{before:?} to {now:?}");
     }
     // A slider that is dragged is followed all the while.
-    let mut dragged = ChangingWind::steady(breeze(0.0));
+    let mut dragged = ChangingWeather::steady(breeze(0.0).into());
     for i in 0..300 {
-        dragged.change(f64::from(i) / 60.0, breeze(f64::from(i) / 60.0));
+        dragged.change(f64::from(i) / 60.0, breeze(f64::from(i) / 60.0).into());
     }
-    let speed = dragged.at(5.0).speed;
+    let speed = dragged.at(5.0).wind.speed;
     assert!((3.5..5.0).contains(&speed), "{speed} m/s while 5 are asked for");
-    dragged.change(5.0, Wind { speed: f64::NAN, ..breeze(0.0) });
-    assert!(dragged.at(30.0).speed.is_finite());
+    assert!(!dragged.change(5.0, Wind { speed: f64::NAN, ..breeze(299.0 / 60.0) }.into()));
+    assert!(dragged.at(30.0).wind.speed.is_finite());
 }
 
 fn wrapped_deg(angle: f64) -> f64 {

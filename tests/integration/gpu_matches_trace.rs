@@ -12,8 +12,8 @@ use bevy_picture_tour::headless::{HeadlessTour, headless_app, headless_app_with}
 use bevy_picture_tour::motion::Simulation;
 use bevy_picture_tour::picture::{Mask, Picture, PicturePoint, PngPixels, save_png};
 use bevy_picture_tour::tour::{
-    BackgroundPlace, Band, Floating, Jonswap, Motion, Region, Sea, Sky, Support, Sway, SwayKind, Tour,
-    TourFile, Wind,
+    BackgroundPlace, Band, Course, Floating, Jonswap, Motion, Region, Sea, Sky, Support, Sway, SwayKind,
+    Tour, TourFile, Waypoint, Wind,
 };
 use bevy_picture_tour::trace::Reference;
 use bevy_picture_tour::trace::compare::Comparison;
@@ -120,12 +120,20 @@ fn what_moves_is_drawn_alike() {
     let source = a1_with(|tour| {
         tour.wind = Wind { speed: 5.0, ..Wind::default() };
         tour.waves.sea = Sea::Jonswap(Jonswap::default());
-        for object in &mut tour.objects {
+        // The last thing in the water sails, to where it is seen from its other side.
+        let last = tour.objects.iter().rposition(|object| object.support == Support::Water);
+        for (index, object) in tour.objects.iter_mut().enumerate() {
             object.motion = match object.support {
-                Support::Water => Motion::Floating(floating()),
-                Support::Ground => Motion::Sway(trunk()),
+                Support::Water if last == Some(index) => Motion::Course(there_and_back()),
+                Support::Water => Motion::Floating(Floating::of_draft(0.2)),
+                Support::Ground => {
+                    Motion::Sway(Sway { amplitude: Some(0.02), ..Sway::of_kind(SwayKind::Trunk) })
+                }
             };
         }
+        let corners = [(0.0, 0.0), (960.0, 0.0), (960.0, 150.0), (0.0, 150.0)];
+        let region = Region::Polygon(corners.map(|(x, y)| PicturePoint::new(x, y)).into());
+        tour.sky = Some(Sky { region: Some(region), drift: None });
     });
     let size = source.picture.size();
     let mut gpu = HeadlessTour::new(source.clone(), size, Transform::default()).unwrap();
@@ -140,7 +148,7 @@ fn what_moves_is_drawn_alike() {
         let water = motion.water();
         let expected = Reference::new(&solved.scene, &solved.maps)
             .with_water(&water)
-            .with_motion(&motion.moment().placements, &motion.moment().sways)
+            .at_moment(motion.moment())
             .render(&camera, 1);
         let frame = gpu.render(&camera).unwrap();
         let found = Comparison::of(&frame, &expected).unwrap();
@@ -156,30 +164,10 @@ fn what_moves_is_drawn_alike() {
     assert!(found.max_code_difference <= 1, "still again, {} codes off", found.max_code_difference);
 }
 
-fn trunk() -> Sway {
-    Sway {
-        kind: SwayKind::Trunk,
-        root: None,
-        tip: None,
-        frequency_hz: None,
-        damping: None,
-        amplitude: Some(0.02),
-        period_seconds: None,
-        seed: None,
-    }
-}
-
-fn floating() -> Floating {
-    Floating {
-        draft: 0.2,
-        length: None,
-        beam: None,
-        mass: None,
-        heave_damping: None,
-        roll_damping: None,
-        heave_period_seconds: None,
-        roll_period_seconds: None,
-    }
+/// To the right and away, and back as the mirrored copy within 19 s.
+fn there_and_back() -> Course {
+    let waypoints = [(-0.6, -12.0), (2.0, -13.0)].map(|(x, z)| Waypoint((x, z).into()));
+    Course { waypoints: waypoints.into(), speed: 1.5, draft: 0.2, length: None, closed: false }
 }
 
 #[test]

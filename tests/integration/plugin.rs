@@ -1,9 +1,12 @@
 //! The plugin in an app: tours become ready, are told apart, are drawn anywhere, and leave without a trace.
 
 use bevy::camera::visibility::RenderLayers;
+use bevy::math::DVec3;
 use bevy::prelude::*;
-use bevy_picture_tour::plugin::{SolvedTour, TourAsset, TourPart};
+use bevy_picture_tour::plugin::{ObjectMotion, SolvedTour, TourAsset, TourMotion, TourPart, TourWeather};
+use bevy_picture_tour::tour::Motion;
 use bevy_picture_tour::trace::compare::Comparison;
+use bevy_picture_tour::water::body::BodyPose;
 
 use crate::support::stage::Stage;
 use crate::support::{adapter, made_scene};
@@ -164,4 +167,35 @@ fn a_tour_that_cannot_be_solved_fails_and_says_why() {
     assert_eq!(*entity, root);
     assert!(error.contains("reflection pairs"), "{error}");
     assert!(stage.app.world().get::<SolvedTour>(root).is_none());
+}
+
+#[test]
+fn a_game_moves_a_tour_s_objects_and_turns_its_wind() {
+    let Some(_gpu) = adapter() else { return };
+    let mut stage = Stage::new();
+    let root = stage.tour(made_scene::source(), Transform::default());
+    let target = stage.camera(root, made_scene::SIZE, ());
+    stage.settle();
+    let still = stage.shot(&target, made_scene::SIZE);
+    let world = stage.app.world_mut();
+    let mut objects = world.query::<(Entity, &Name, &ObjectMotion)>();
+    let (boat, ..) = objects.iter(world).find(|(_, name, _)| name.as_str() == "boat").expect("it can move");
+
+    let pose = BodyPose { position: DVec3::new(0.8, 0.2, 0.0), ..BodyPose::default() };
+    stage.app.world_mut().entity_mut(boat).insert(ObjectMotion::Led(pose));
+    stage.settle();
+    let led = Comparison::of(&stage.shot(&target, made_scene::SIZE), &still).unwrap();
+    assert!(led.mean_difference > 0.3, "the boat stays: a mean difference of {} codes", led.mean_difference);
+
+    stage.app.world_mut().entity_mut(boat).insert(ObjectMotion::Own(Motion::Static));
+    stage.settle();
+    let back = Comparison::of(&stage.shot(&target, made_scene::SIZE), &still).unwrap();
+    assert_eq!(back.max_code_difference, 0, "it does not come back");
+
+    let mut weather = *stage.app.world().get::<TourWeather>(root).expect("a tour has its weather");
+    weather.wind.speed = 4.0;
+    stage.app.world_mut().entity_mut(root).insert(weather);
+    stage.app.update();
+    let motion = stage.app.world().get::<TourMotion>(root).expect("a tour has its motion");
+    assert_eq!(motion.simulation().weather_to_come().wind.speed, 4.0);
 }

@@ -15,6 +15,8 @@ use bevy_picture_tour::picture::save_png;
 use glam::UVec2;
 use tempfile::TempDir;
 
+use crate::support::adapter;
+
 const SIZE: UVec2 = UVec2::new(96, 54);
 
 /// A folder with a small picture: light above, a mirror image below.
@@ -236,4 +238,26 @@ fn a_folder_that_is_a_file_is_refused() {
     let refused = run(folder.path(), &["render", "pond.tour.ron", "--reference", "--out", "pond.png"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("pond.png"), "{}", stderr(&refused));
+}
+
+#[test]
+fn a_loop_has_whole_frames_and_is_refused_where_it_cannot_be() {
+    let Some(_gpu) = adapter() else { return };
+    let folder = folder_with_tour();
+    let arguments =
+        ["render", "pond.tour.ron", "--out", "frames", "--loop", "8.04", "--fps", "10", "--frames", "78.."];
+    let output = run(folder.path(), &arguments);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let frames = fs::read_dir(folder.path().join("frames")).unwrap().count();
+    assert_eq!(frames, 2, "80 frames of 0.1 s, of which two are asked for");
+    for (arguments, why) in [
+        (["--loop", "3", "--out", "frames"], "8 s to 3600 s"),
+        (["--frames", "0..3", "--out", "frames"], "--loop"),
+        (["--size", "64x36", "--out", "film.mp4"], "--path or --loop"),
+    ] {
+        let output = run(folder.path(), &[["render", "pond.tour.ron"].as_slice(), &arguments].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(why), "{}", stderr(&output));
+    }
+    assert!(!folder.path().join("film.mp4").exists());
 }

@@ -35,7 +35,7 @@ pub(crate) enum Command {
         /// The tour to open; the demo if left out
         tour: Option<PathBuf>,
     },
-    /// Write views or a film of the tour as PNG frames, without a window
+    /// Write views or a film of the tour, as PNG frames or through ffmpeg, without a window
     Render(RenderArguments),
     /// Tell what is wrong with a tour, and how well its picture is solved
     ///
@@ -83,19 +83,25 @@ pub(crate) struct NewArguments {
 pub(crate) struct RenderArguments {
     /// The tour to render; the demo if left out
     pub(crate) tour: Option<PathBuf>,
-    /// Folder for the frames; made if it is not there
-    #[arg(long, value_name = "DIR")]
+    /// Folder for the frames, made if it is not there; or FILE.mp4 or FILE.webm for a film (needs ffmpeg)
+    #[arg(long, value_name = "DIR|FILE")]
     pub(crate) out: PathBuf,
     /// Render these views: a JSON list of `{"name", "position": [x, y, z], "yaw_deg", "pitch_deg", "roll_deg"}`
     ///
     /// Meters: x right, y above the water, -z into the picture. Angles left out are 0. Each view becomes NAME.png.
-    #[arg(long, value_name = "FILE.json", conflicts_with_all = ["path", "at"])]
+    #[arg(long, value_name = "FILE.json", conflicts_with_all = ["path", "at", "loop_seconds"])]
     pub(crate) views: Option<PathBuf>,
     /// Render the tour's camera path, as `frame_00000.png` and so on
     #[arg(long, conflicts_with = "at")]
     pub(crate) path: bool,
-    /// Only these frames of the path: from A up to, not including, B (either may be left out)
-    #[arg(long, value_name = "A..B", requires = "path", value_parser = parse_frames)]
+    /// Render a film that begins anew after this many seconds (8 or more) without a seam
+    ///
+    /// Waves, wind and courses are fitted to it. The camera stays where the picture was taken, or goes whole rounds of the
+    /// tour's path with --path.
+    #[arg(long = "loop", value_name = "SECONDS", value_parser = parse_seconds, conflicts_with_all = ["at", "still"])]
+    pub(crate) loop_seconds: Option<f64>,
+    /// Only these frames of the path or loop: from A up to, not including, B (either may be left out)
+    #[arg(long, value_name = "A..B", value_parser = parse_frames)]
     pub(crate) frames: Option<Frames>,
     /// Render one frame this many seconds after the start, from where the path's camera is then
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
@@ -114,8 +120,8 @@ pub(crate) struct RenderArguments {
     /// Without motion: no wind, no waves, as in the picture
     #[arg(long)]
     pub(crate) still: bool,
-    /// Frames a second of the path
-    #[arg(long, value_name = "N", default_value_t = 30, requires = "path",
+    /// Frames a second of the path or loop
+    #[arg(long, value_name = "N", default_value_t = 30,
         value_parser = clap::value_parser!(u32).range(1..=240))]
     pub(crate) fps: u32,
 }
@@ -128,6 +134,7 @@ impl RenderArguments {
             out,
             views: None,
             path,
+            loop_seconds: None,
             frames: None,
             at: None,
             size: Some(UVec2::new(960, 540)),

@@ -12,13 +12,15 @@ pub(crate) const NAME: &str = "the demo (lake.tour.ron)";
 pub(crate) const TOUR: &str = include_str!("../../../assets/lake/lake.tour.ron");
 
 /// The files that the demo's tour names.
-const FILES: [(&str, &[u8]); 7] = [
+const FILES: [(&str, &[u8]); 9] = [
     ("lake.png", include_bytes!("../../../assets/lake/lake.png")),
+    ("masks/blue_boat.png", include_bytes!("../../../assets/lake/masks/blue_boat.png")),
     ("masks/boat.png", include_bytes!("../../../assets/lake/masks/boat.png")),
     ("masks/conifers.png", include_bytes!("../../../assets/lake/masks/conifers.png")),
     ("masks/farshore.png", include_bytes!("../../../assets/lake/masks/farshore.png")),
     ("masks/ground.png", include_bytes!("../../../assets/lake/masks/ground.png")),
     ("masks/rocks.png", include_bytes!("../../../assets/lake/masks/rocks.png")),
+    ("masks/sky.png", include_bytes!("../../../assets/lake/masks/sky.png")),
     ("masks/water.png", include_bytes!("../../../assets/lake/masks/water.png")),
 ];
 

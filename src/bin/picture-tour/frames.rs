@@ -1,5 +1,7 @@
 //! Which frames `render` writes: what each is called, and where its camera stands.
 
+use std::ops::Range;
+
 use bevy_picture_tour::camera::CameraPath;
 use bevy_picture_tour::camera::CameraPose;
 use bevy_picture_tour::tour;
@@ -34,31 +36,72 @@ pub(crate) fn planned(arguments: &RenderArguments, tour: &Tour) -> Result<Vec<Fr
         let pose = path.map(|path| path.at(seconds));
         return Ok(vec![Frame { file: format!("at_{seconds:.3}s.png"), pose, seconds: moving(seconds) }]);
     }
+    if let Some(seconds) = arguments.loop_seconds {
+        let count = loop_count(seconds, arguments.fps);
+        let round = match path {
+            _ if !arguments.path => None,
+            Some(path) if path.is_looped() => Some(path),
+            Some(_) => {
+                return Err(Failure::CannotRun(
+                    "the tour's path ends elsewhere than it begins; add `looped: true` to it, or leave --path out"
+                        .to_owned(),
+                ));
+            }
+            None => return Err(no_path()),
+        };
+        let length = loop_length(seconds, arguments.fps);
+        let rounds = |path: &CameraPath| (length / path.duration()).round().max(1.0);
+        let pose = |seconds: f64| {
+            round.as_ref().map(|path| path.at(seconds / length * rounds(path) * path.duration()))
+        };
+        return Ok(range(arguments, count)?.map(|index| frame(arguments, index, pose, Some)).collect());
+    }
     if !arguments.path {
+        if arguments.frames.is_some() {
+            return Err(Failure::CannotRun("--frames needs a film; add --path or --loop SECONDS".to_owned()));
+        }
         return Ok(vec![Frame { file: "first_view.png".to_owned(), pose: None, seconds: None }]);
     }
-    let Some(path) = path else {
-        return Err(Failure::CannotRun(
-            "the tour has no camera path; add `path: (keyframes: [...])` to it, or use --views".to_owned(),
-        ));
-    };
-    let count = count(&path, arguments.fps);
-    let range = arguments.frames.map_or(Some(0..count), |frames| frames.of(count)).ok_or_else(|| {
+    let path = path.ok_or_else(no_path)?;
+    let range = range(arguments, count(&path, arguments.fps))?;
+    Ok(range.map(|index| frame(arguments, index, |seconds| Some(path.at(seconds)), moving)).collect())
+}
+
+/// How long a loop is, so that it has a whole number of frames.
+pub(crate) fn loop_length(seconds: f64, fps: u32) -> f64 {
+    f64::from(loop_count(seconds, fps)) / f64::from(fps)
+}
+
+fn loop_count(seconds: f64, fps: u32) -> u32 {
+    (seconds * f64::from(fps)).round() as u32
+}
+
+/// One frame of a film.
+fn frame(
+    arguments: &RenderArguments,
+    index: u32,
+    pose: impl Fn(f64) -> Option<CameraPose>,
+    moving: impl Fn(f64) -> Option<f64>,
+) -> Frame {
+    let seconds = f64::from(index) / f64::from(arguments.fps);
+    Frame { file: format!("frame_{index:05}.png"), pose: pose(seconds), seconds: moving(seconds) }
+}
+
+/// Which of a film's frames are asked for.
+fn range(arguments: &RenderArguments, count: u32) -> Result<Range<u32>, Failure> {
+    arguments.frames.map_or(Some(0..count), |frames| frames.of(count)).ok_or_else(|| {
         Failure::CannotRun(format!(
-            "the path has {count} frames at {} a second, so --frames begins beyond its end; ask for frames from \
+            "the film has {count} frames at {} a second, so --frames begins beyond its end; ask for frames from \
              0..{count}",
             arguments.fps
         ))
-    })?;
-    let frame = |index: u32| {
-        let seconds = f64::from(index) / f64::from(arguments.fps);
-        Frame {
-            file: format!("frame_{index:05}.png"),
-            pose: Some(path.at(seconds)),
-            seconds: moving(seconds),
-        }
-    };
-    Ok(range.map(frame).collect())
+    })
+}
+
+fn no_path() -> Failure {
+    Failure::CannotRun(
+        "the tour has no camera path; add `path: (keyframes: [...])` to it, or use --views".to_owned(),
+    )
 }
 
 /// Frames of a path: an open one has a frame at its end, a looped one goes on with its first instead.

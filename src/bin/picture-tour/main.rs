@@ -7,6 +7,7 @@ mod bake;
 mod check;
 mod demo;
 mod failure;
+mod film;
 mod frames;
 mod new;
 mod open;

@@ -1,4 +1,4 @@
-//! `render`: views or a path as PNG frames.
+//! `render`: views, a path or a loop, as PNG frames or as a film.
 
 use std::io::Write;
 use std::path::Path;
@@ -17,6 +17,7 @@ use indicatif::ProgressBar;
 use crate::args::MAX_SIDE;
 use crate::args::RenderArguments;
 use crate::failure::Failure;
+use crate::film::{self, Film};
 use crate::frames;
 use crate::open;
 use crate::renderer::Renderer;
@@ -29,11 +30,25 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
     watch_for_ctrl_c()?;
     let opened = open::open(arguments.tour.as_deref())?;
     let frames = frames::planned(arguments, opened.asset.tour())?;
-    prepare_folder(&arguments.out)?;
+    let is_film = film::is_film(&arguments.out);
+    if is_film && !arguments.path && arguments.loop_seconds.is_none() {
+        return Err(Failure::CannotRun(
+            "a film needs something that goes on; add --path or --loop SECONDS, or name a folder with --out"
+                .to_owned(),
+        ));
+    }
+    if !is_film {
+        prepare_folder(&arguments.out)?;
+    }
 
     let size = arguments.size.unwrap_or(opened.picture_size()).min(UVec2::splat(MAX_SIDE));
     let stop = || STOP.load(Ordering::Relaxed);
+    // Before the work, in case that it cannot be made.
+    let mut film = is_film.then(|| Film::start(&arguments.out, size, arguments.fps)).transpose()?;
     let mut renderer = Renderer::new(opened, size, arguments.samples, arguments.reference, &stop)?;
+    if let Some(seconds) = arguments.loop_seconds {
+        renderer.repeat_after(frames::loop_length(seconds, arguments.fps))?;
+    }
     let taken_by = renderer.taken_by();
     let intrinsics = fitted(&taken_by.intrinsics, size, Fit::Cover).intrinsics;
 
@@ -43,19 +58,25 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         if stop() {
             bar.finish_and_clear();
             return Err(Failure::CannotRun(format!(
-                "stopped; {done} of {} frames are done, whole, in {}",
+                "stopped; {done} of {} frames are done{}",
                 frames.len(),
-                arguments.out.display()
+                if is_film { String::new() } else { format!(", whole, in {}", arguments.out.display()) }
             )));
         }
         bar.set_message(frame.file.clone());
         let camera = PinholeCamera { intrinsics, pose: frame.pose.unwrap_or(taken_by.pose) };
         let picture = renderer.render(&camera, frame.seconds)?;
-        save_png(&arguments.out.join(&frame.file), picture.size(), PngPixels::Rgb(picture.pixels()))
-            .map_err(|error| Failure::CannotRun(error.to_string()))?;
+        match &mut film {
+            Some(film) => film.add(&picture)?,
+            None => {
+                save_png(&arguments.out.join(&frame.file), picture.size(), PngPixels::Rgb(picture.pixels()))
+                    .map_err(|error| Failure::CannotRun(error.to_string()))?
+            }
+        }
         bar.inc(1);
     }
     bar.finish_and_clear();
+    film.map_or(Ok(()), Film::finish)?;
     let frames = match frames.as_slice() {
         [only] => only.file.clone(),
         frames => format!("{} frames", frames.len()),

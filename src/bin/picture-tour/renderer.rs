@@ -63,6 +63,15 @@ impl Renderer {
         }
     }
 
+    /// Lets the tour begin anew after so many seconds.
+    pub(crate) fn repeat_after(&mut self, seconds: f64) -> Result<(), Failure> {
+        match self {
+            Self::Gpu { tour, .. } => tour.repeat_after(seconds),
+            Self::Reference { motion, .. } => motion.looped(seconds).map(|looped| **motion = looped),
+        }
+        .map_err(|error| Failure::CannotRun(error.to_string()))
+    }
+
     /// The camera that took the picture.
     pub(crate) fn taken_by(&self) -> PinholeCamera {
         match self {
@@ -91,9 +100,7 @@ impl Renderer {
                 let Some(seconds) = seconds else { return Ok(reference.render(camera, *samples)) };
                 motion.go_to(seconds);
                 let water = motion.water();
-                let moment = motion.moment();
-                let moving = reference.with_water(&water).with_motion(&moment.placements, &moment.sways);
-                Ok(moving.render(camera, *samples))
+                Ok(reference.with_water(&water).at_moment(motion.moment()).render(camera, *samples))
             }
         }
     }

@@ -44,8 +44,8 @@ fn a_change_of_wind_makes_nothing_jump() {
     // Waves keep the length of the tour's own wind, so those of 2 m/s are what the changing ones can be compared with.
     let own = most_changes(&mut started(2.0, &all, SEA), 900, |_, _| {});
     let changing = most_changes(&mut simulation, 900, |simulation, step| match step {
-        300 => simulation.set_wind(&Wind { direction_deg: -120.0, ..wind(10.0) }),
-        600 => simulation.set_wind(&wind(0.0)),
+        300 => simulation.set_weather(&Wind { direction_deg: -120.0, ..wind(10.0) }.into()),
+        600 => simulation.set_weather(&wind(0.0).into()),
         _ => {}
     });
     assert!(steady[0] > 1e-4, "the tree hardly moves");
@@ -106,7 +106,11 @@ fn a_plant_stands_where_the_picture_shows_it() {
 
 #[test]
 fn clouds_follow_the_wind_unless_the_tour_says_how() {
-    let (tour, scene) = lake(4.0, &[], "");
+    let (tour, mut scene) = lake(4.0, &[], "");
+    assert!(!Simulation::new(&tour, &scene).0.moves(0).drifts, "what is 120 m away is no sky");
+    scene.components[0].surface = Surface::Infinity;
+    assert!(!Simulation::new(&tour, &scene).0.moves(0).drifts, "mountains may be as far");
+    scene.components[0].name = "sky".to_owned();
     let at_2_s = |tour: &Tour| {
         let (mut simulation, _) = Simulation::new(tour, &scene);
         simulation.go_to(2.0);

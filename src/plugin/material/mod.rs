@@ -13,6 +13,7 @@ use bevy::shader::{ShaderRef, load_shader_library};
 
 use crate::maps::Layer;
 use crate::maps::Tint;
+use crate::motion::Moves;
 use crate::scene::Surface;
 use crate::scene::TourScene;
 
@@ -37,6 +38,7 @@ pub(super) struct TourPass {
     depth_only: bool,
     /// Is the water.
     water: bool,
+    moves: Moves,
 }
 
 /// Mirrors `TourUniform` of `tour.wgsl`.
@@ -103,6 +105,8 @@ pub(super) struct TourMaterial {
     pub(super) policy: ColorPolicy,
     pub(super) depth_only: bool,
     pub(super) water: bool,
+    /// What can move in it; the rest costs nothing.
+    pub(super) moves: Moves,
 }
 
 impl TourMaterial {
@@ -118,6 +122,7 @@ impl From<&TourMaterial> for TourPass {
             graded: material.policy == ColorPolicy::Graded,
             depth_only: material.depth_only,
             water: material.water,
+            moves: material.moves,
         }
     }
 }
@@ -166,8 +171,17 @@ impl Material for TourMaterial {
             }
             if pass.water {
                 descriptor.vertex.shader_defs.push("TOUR_WATER".into());
-                fragment.shader_defs.push("TOUR_WATER".into());
             }
+            let moves = pass.moves;
+            let defs = [
+                (pass.water, "TOUR_WATER"),
+                (moves.sways, "TOUR_SWAYS"),
+                (moves.returns, "TOUR_RETURNS"),
+                (moves.drifts, "TOUR_DRIFTS"),
+            ];
+            fragment
+                .shader_defs
+                .extend(defs.into_iter().filter(|(is_so, _)| *is_so).map(|(_, def)| def.into()));
             if pass.depth_only {
                 for target in fragment.targets.iter_mut().flatten() {
                     target.write_mask = ColorWrites::empty();

@@ -1,7 +1,7 @@
 // A tour's part: a component's texture map read through the picture's own camera, or the water.
 
 #import bevy_picture_tour::tour::{
-    TourUniform, component, eye_of, fragment_ray, level_of, meet, see, see_far, sharp, snap, INFINITE,
+    TourUniform, cloud_copy, component, cross_faded, eye_of, fragment_ray, level_of, meet, see, see_far, sharp, snap, INFINITE,
 }
 #import bevy_picture_tour::vertex::{TourVertex, Vertex, place}
 #import bevy_picture_tour::finish::finish
@@ -22,6 +22,15 @@ fn vertex(vertex: Vertex) -> TourVertex {
     return place(vertex, tour, records);
 }
 
+#ifndef TOUR_WATER
+// The texture map at a picture point.
+fn texel(at: vec2<f32>, level: f32) -> vec4<f32> {
+    let scale = tour.flags.z;
+    let place = (snap(at) - tour.layer.xy) * scale;
+    return sharp(map, map_sampler, place, vec2(0.0), round(tour.layer.zw * scale) - 1.0, level);
+}
+#endif
+
 @fragment
 fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
 #ifdef TOUR_WATER
@@ -36,15 +45,25 @@ fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
     let found = component(records, i32(tour.eye.w));
     var away = ray.direction;
     var seen = see_far(tour, away);
+#ifdef TOUR_DRIFTS
+    let level = level_of(tour, records, in.row, away, seen.z, tour.flags.z);
+    let first = cloud_copy(records, 0);
+    let second = cloud_copy(records, 1);
+    let color = first.z * texel(seen.xy - first.xy, level) + second.z * texel(seen.xy - second.xy, level);
+#else
+    var mirrored = vec4(0.0);
     if found.kind != INFINITE {
         let met = meet(records, in.row, i32(tour.eye.w), found, ray);
         seen = see(tour, met.rest);
         away = met.point - eye_of(records, in.row);
+        mirrored = vec4(met.copy, met.mirrored);
     }
-    let scale = tour.flags.z;
-    let level = level_of(tour, records, in.row, away, seen.z, scale);
-    let texel = (snap(seen.xy) - tour.layer.xy) * scale;
-    let color = sharp(map, map_sampler, texel, vec2(0.0), round(tour.layer.zw * scale) - 1.0, level);
+    let level = level_of(tour, records, in.row, away, seen.z, tour.flags.z);
+    var color = texel(seen.xy, level);
+#ifdef TOUR_RETURNS
+    color = cross_faded(color, texel(see(tour, mirrored.xyz).xy, level), mirrored.w);
+#endif
+#endif
     if color.a <= tour.flags.y {
         discard;
     }

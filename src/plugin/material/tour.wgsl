@@ -12,6 +12,8 @@
 const VIEW_ROWS: i32 = 8;
 const COMPONENT_ROW: i32 = 8;
 const SWAY_ROW: i32 = 9;
+const WATER_ROW: i32 = 10;
+const CLOUDS: i32 = 6;
 const TEXELS_PER_SWAY: i32 = 8;
 const TEXELS_PER_COMPONENT: i32 = 5;
 const FIRST_PLACEMENT: i32 = 24;
@@ -60,6 +62,8 @@ struct Placement {
     origin: vec3<f32>,
     along: vec3<f32>,
     up: vec3<f32>,
+    // Share of the mirrored copy in what it shows, 0 to 1.
+    mirrored: f32,
 }
 
 // Where a ray meets a component.
@@ -71,6 +75,9 @@ struct Meeting {
     place: vec2<f32>,
     // The point that is there when nothing moves.
     rest: vec3<f32>,
+    // The point that the mirrored copy shows there, and its share in what is shown.
+    copy: vec3<f32>,
+    mirrored: f32,
 }
 
 struct Ray {
@@ -127,10 +134,12 @@ fn component(records: texture_2d<f32>, index: i32) -> Component {
 
 fn placement(records: texture_2d<f32>, row: i32, index: i32) -> Placement {
     let first = FIRST_PLACEMENT + index * TEXELS_PER_PLACEMENT;
+    let origin = textureLoad(records, vec2(first, row), 0);
     return Placement(
-        textureLoad(records, vec2(first, row), 0).xyz,
+        origin.xyz,
         textureLoad(records, vec2(first + 1, row), 0).xyz,
         textureLoad(records, vec2(first + 2, row), 0).xyz,
+        origin.w,
     );
 }
 
@@ -139,6 +148,7 @@ fn placed(found: Component, at: Placement, rest: vec3<f32>) -> vec3<f32> {
     return at.origin + dot(rest.xz - found.line.xy, found.line.zw) * at.along + rest.y * at.up;
 }
 
+#ifdef TOUR_SWAYS
 // Which point of a wall, along and up, is seen at a place of it when its plant sways.
 fn unbent(records: texture_2d<f32>, index: i32, place: vec2<f32>) -> vec2<f32> {
     let first = index * TEXELS_PER_SWAY;
@@ -159,22 +169,30 @@ fn unbent(records: texture_2d<f32>, index: i32, place: vec2<f32>) -> vec2<f32> {
     );
     return rest_point(sway, place);
 }
+#endif
 
 // Where a ray meets the component's unbounded plane; `inside` tells whether that is in its rectangle.
 fn meet(records: texture_2d<f32>, row: i32, index: i32, found: Component, ray: Ray) -> Meeting {
     if found.kind == LEVEL {
         let distance = (found.height - ray.origin.y) / ray.direction.y;
         let point = ray.origin + distance * ray.direction;
-        return Meeting(distance, point, point.xz, point);
+        return Meeting(distance, point, point.xz, point, point, 0.0);
     }
     let at = placement(records, row, index);
     let normal = cross(at.along, at.up);
     let distance = dot(normal, at.origin - ray.origin) / dot(normal, ray.direction);
     let point = ray.origin + distance * ray.direction;
     let place = vec2(dot(point - at.origin, at.along), dot(point - at.origin, at.up));
+#ifdef TOUR_SWAYS
     let rest = unbent(records, index, place);
+#else
+    let rest = place;
+#endif
     let line = found.line.xy + rest.x * found.line.zw;
-    return Meeting(distance, point, place, vec3(line.x, rest.y, line.y));
+    let copy = found.line.xy - rest.x * found.line.zw;
+    return Meeting(
+        distance, point, place, vec3(line.x, rest.y, line.y), vec3(copy.x, rest.y, copy.y), at.mirrored,
+    );
 }
 
 fn inside(found: Component, place: vec2<f32>) -> bool {
@@ -247,18 +265,19 @@ fn sharp(
     high: vec2<f32>,
     level: f32,
 ) -> vec4<f32> {
+    // Written once: where branches are not skipped (software GPUs), every copy would be paid for.
+    var fine = vec4(0.0);
+    if level < 1.0 {
+        fine = sharpest(map, filtering, at, low, high);
+    }
     if level <= 0.0 {
-        return sharpest(map, filtering, at, low, high);
+        return fine;
     }
     // Half a texel of the coarsest level that is read stays between the place and the block's border.
     let step = exp2(ceil(level));
     let limit = low + ceil((high - low + 1.0) / step) * step;
     let place = clamp(at, low + 0.5 * step, limit - 0.5 * step) / vec2<f32>(textureDimensions(map));
-    let coarse = textureSampleLevel(map, filtering, place, max(level, 1.0));
-    if level >= 1.0 {
-        return coarse;
-    }
-    return mix(sharpest(map, filtering, at, low, high), coarse, level);
+    return mix(fine, textureSampleLevel(map, filtering, place, max(level, 1.0)), min(level, 1.0));
 }
 
 // The same at its finest level: cubic, and within what the four nearest texels span, so that nothing rings.
@@ -296,6 +315,18 @@ fn sharpest(
         }
     }
     return clamp(sum, least, most);
+}
+
+// A texel with coverage and the one that takes its place, by a share. Twin of `cross_faded` in `trace/`.
+fn cross_faded(texel: vec4<f32>, other: vec4<f32>, share: f32) -> vec4<f32> {
+    let coverage = mix(texel.a, other.a, share);
+    let light = mix(texel.a * texel.rgb, other.a * other.rgb, share);
+    return vec4(light / max(coverage, 1e-6), coverage);
+}
+
+// A copy of the clouds: how far it is moved, picture pixels (xy), and its share (z).
+fn cloud_copy(records: texture_2d<f32>, copy: i32) -> vec3<f32> {
+    return textureLoad(records, vec2(CLOUDS + copy, WATER_ROW), 0).xyz;
 }
 
 fn mirror(point: vec3<f32>) -> vec3<f32> {

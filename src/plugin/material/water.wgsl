@@ -6,8 +6,8 @@
 
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_picture_tour::tour::{
-    Component, Ray, TourUniform, component, eye_of, inside, level_of, meet, mirror, see, see_far, sharp, snap, INFINITE,
-    MIP_LEVELS,
+    Component, Ray, TourUniform, cloud_copy, component, cross_faded, eye_of, inside, level_of, meet, mirror, see, see_far,
+    sharp, snap, INFINITE, MIP_LEVELS,
 }
 #import bevy_picture_tour::waves::surface
 
@@ -91,7 +91,14 @@ fn mirror_hit(
         level_of(tour, records, look.row, away, seen.z, found.atlas.z),
         blur_level(tour, look, share, found.atlas.z),
     );
-    let texel = sample_map(maps, filtering, found, seen.xy, level);
+    var texel = sample_map(maps, filtering, found, seen.xy, level);
+#ifdef TOUR_RETURNS
+    // One more look for the boats that come back, none for all else.
+    if met.mirrored > 0.0 {
+        let copy = see(tour, mirror(met.copy));
+        texel = cross_faded(texel, sample_map(maps, filtering, found, copy.xy, level), met.mirrored);
+    }
+#endif
     return Hit(met.distance, at_angle(tour, texel, tour.eye.xyz - image, look.grazing));
 }
 
@@ -183,7 +190,16 @@ fn mirrored(
         level_of(tour, records, row, away, seen.z, last.atlas.z),
         blur_level(tour, look, share, last.atlas.z),
     );
-    let texel = at_angle(tour, sample_map(maps, filtering, last, seen.xy, level), was, grazing);
-    light = behind(light, vec4(texel.rgb, 1.0));
+#ifdef TOUR_DRIFTS
+    // In the water clouds that rise sink.
+    let first = cloud_copy(records, 0);
+    let second = cloud_copy(records, 1);
+    let down = vec2(1.0, -1.0);
+    let sky = first.z * sample_map(maps, filtering, last, seen.xy - first.xy * down, level)
+        + second.z * sample_map(maps, filtering, last, seen.xy - second.xy * down, level);
+#else
+    let sky = sample_map(maps, filtering, last, seen.xy, level);
+#endif
+    light = behind(light, vec4(at_angle(tour, sky, was, grazing).rgb, 1.0));
     return light.color;
 }

@@ -4,7 +4,8 @@
 
 #define_import_path bevy_picture_tour::waves
 
-const WATER_ROW: i32 = 10;
+#import bevy_picture_tour::tour::WATER_ROW
+
 // The texture: ripples above; below them two tiles of the sea side by side, their mip levels under each other.
 const RIPPLES: i32 = 256;
 const TILE: i32 = 128;

@@ -100,6 +100,13 @@ impl BodyPose {
         }
     }
 
+    /// Whether all its numbers are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.position.is_finite()
+            && [self.yaw, self.roll, self.pitch, self.mirrored_share].iter().all(|number| number.is_finite())
+    }
+
     /// Where a rest point is now.
     #[must_use]
     pub fn moved(&self, berth: &Berth, rest: DVec3) -> DVec3 {

@@ -2,7 +2,9 @@
 
 use bevy::prelude::*;
 use bevy_egui::{EguiContexts, egui};
-use bevy_picture_tour::plugin::TourMotion;
+use bevy_picture_tour::plugin::{TourMotion, TourWeather};
+
+use bevy_picture_tour::wind::HIGHEST_WAVES;
 
 use super::overlay::Overlay;
 
@@ -12,7 +14,7 @@ const FASTEST: f64 = 25.0;
 pub(super) fn show(
     mut contexts: EguiContexts,
     overlay: Res<Overlay>,
-    mut tours: Query<&mut TourMotion>,
+    mut tours: Query<(&mut TourMotion, &mut TourWeather)>,
 ) -> Result {
     if !overlay.weather {
         return Ok(());
@@ -22,15 +24,13 @@ pub(super) fn show(
     egui::Area::new("weather".into()).anchor(egui::Align2::RIGHT_TOP, [-12.0, 12.0]).show(context, |ui| {
         frame.show(ui, |ui| {
             ui.visuals_mut().override_text_color = Some(egui::Color32::WHITE);
-            for mut motion in &mut tours {
-                let mut wind = motion.wind();
-                let before = wind;
-                ui.add(slider(&mut wind.speed, 0.0..=FASTEST).text("wind, m/s"));
-                ui.add(slider(&mut wind.direction_deg, -180.0..=180.0).text("blows towards, °"));
-                ui.add(slider(&mut wind.gusts, 0.0..=1.0).text("gusts"));
-                if wind != before {
-                    motion.set_wind(&wind);
-                }
+            for (mut motion, mut weather) in &mut tours {
+                let mut wanted = weather.0;
+                ui.add(slider(&mut wanted.wind.speed, 0.0..=FASTEST).text("wind, m/s"));
+                ui.add(slider(&mut wanted.wind.direction_deg, -180.0..=180.0).text("blows towards, °"));
+                ui.add(slider(&mut wanted.wind.gusts, 0.0..=1.0).text("gusts"));
+                ui.add(slider(&mut wanted.waves, 0.0..=HIGHEST_WAVES).text("waves, times the wind's"));
+                weather.set_if_neq(TourWeather(wanted));
                 let mut still = motion.still;
                 if ui.checkbox(&mut still, "the still picture").changed() {
                     motion.still = still;
