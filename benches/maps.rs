@@ -1,8 +1,7 @@
 //! How long a tour takes from its files to being ready, by stages, on the demo (1920 × 1080, three bodies).
 //!
-//! Stages of one run are to be compared with each other: reading and decoding alone;
-//! distances by the mirror image, which `check` and `bands` measure; maps with smooth fills, which a preview
-//! waits for; with patches inside the picture, and beyond it as well; everything.
+//! Stages of one run are to be compared with each other: reading and decoding alone; distances by the mirror image,
+//! which `check` and `bands` measure; maps with smooth fills, which a preview waits for; with patches inside the picture, and beyond it as well; everything.
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
 use std::hint::black_box;
