@@ -1,14 +1,14 @@
 //! How long a tour takes from its files to being ready, by stages, on the demo (1920 × 1080, three bodies).
 //!
-//! Stages of one run are to be compared with each other: reading and decoding alone; maps with smooth fills, which a preview
-//! waits for; with patches inside the picture, and beyond it as well; everything.
+//! Stages of one run are to be compared with each other: reading and decoding alone; distances by the mirror image,
+//! which `check` and `bands` measure; maps with smooth fills, which a preview waits for; with patches inside the picture, and beyond it as well; everything.
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Duration;
 
-use bevy_picture_tour::assemble::{TourSource, assemble, place};
+use bevy_picture_tour::assemble::{TourSource, assemble, measure_depth, place};
 use bevy_picture_tour::maps::{MapOptions, Maps};
 use bevy_picture_tour::picture::decode_picture;
 use criterion::Criterion;
@@ -29,6 +29,9 @@ fn main() {
         bencher.iter(|| decode_picture(black_box(&png), "lake.png").unwrap());
     });
     group.bench_function("open: tour, picture and masks", |bencher| bencher.iter(open));
+    group.bench_function("distances by the mirror image", |bencher| {
+        bencher.iter(|| measure_depth(black_box(&source), &scene.camera, &|_| true).unwrap());
+    });
     let ways = [
         ("maps, smooth fills", MapOptions::PREVIEW),
         ("maps, patches inside the picture", MapOptions { paint_beyond: false, ..MapOptions::default() }),

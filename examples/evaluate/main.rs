@@ -1,8 +1,8 @@
 //! Holds the whole road against a world with known answers: solves it from its annotations, renders views that the
 //! picture never saw, and prints how far they are from the truth.
 //!
-//! `cargo run --release --features app --example evaluate -- WORLD_DIR [--reference] [--known-focal] [--bands none]
-//! [--method paper] [--fill smooth] [--out DIR] [--json FILE]`
+//! `cargo run --release --features app --example evaluate -- WORLD_DIR [--reference] [--known-focal]
+//! [--bands auto|none] [--method paper] [--fill smooth] [--out DIR] [--json FILE]`
 #![expect(clippy::print_stdout, reason = "a program prints")]
 
 mod uncovered;
@@ -12,12 +12,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use bevy_picture_tour::assemble::{AssembledTour, TourSource, assemble};
+use bevy_picture_tour::assemble::{AssembledTour, CutOptions, TourSource, assemble, cut_bands};
 use bevy_picture_tour::camera::PinholeCamera;
 use bevy_picture_tour::headless::HeadlessTour;
 use bevy_picture_tour::maps::{Fill, MapOptions, Method};
-use bevy_picture_tour::picture::{Picture, PngPixels, save_png};
+use bevy_picture_tour::picture::{Picture, PngPixels, encode_png, save_png};
 use bevy_picture_tour::plugin::TourAsset;
+use bevy_picture_tour::tour::{RelativePath, Tour};
 use bevy_picture_tour::trace::Reference;
 use bevy_picture_tour::trace::compare::Comparison;
 use clap::Parser;
@@ -61,6 +62,8 @@ const SMALL_MOVES: usize = 2;
 enum Bands {
     /// What `scene.json` says.
     File,
+    /// What the picture's mirror image shows.
+    Auto,
     /// One plane for the whole background.
     None,
 }
@@ -102,7 +105,11 @@ fn main() -> Result<(), Failure> {
     let args = Args::parse();
     let world = World::open(&args.world)?;
     let tour = world.tour(args.known_focal, args.bands == Bands::File)?;
-    let source = Arc::new(TourSource::read(&tour, &|file| world.read(file.as_str()))?);
+    let mut source = TourSource::read(&tour, &|file| world.read(file.as_str()))?;
+    if args.bands == Bands::Auto {
+        source = with_bands(&world, &tour, &source)?;
+    }
+    let source = Arc::new(source);
     let started = Instant::now();
     let built = Arc::new(assemble(&source, &args.options(), &|_, _| true)?);
     let seconds_for_maps = started.elapsed().as_secs_f64();
@@ -187,6 +194,24 @@ fn main() -> Result<(), Failure> {
         std::fs::write(path, serde_json::to_string_pretty(&report)?)?;
     }
     Ok(())
+}
+
+/// The tour with the bands that its mirror image shows.
+fn with_bands(world: &World, tour: &Tour, source: &TourSource) -> Result<TourSource, Failure> {
+    let options = CutOptions { folder: RelativePath::new("found")?, anew: false };
+    let started = Instant::now();
+    let cut = cut_bands(tour, source, &options, &|_| true)?;
+    println!("bands found in {:.2} s, far to near:", started.elapsed().as_secs_f64());
+    for band in &cut.bands {
+        println!("  {:.1} ± {:.1} m, {:.0} % measured", band.distance, band.deviation, 100.0 * band.measured);
+    }
+    let read = |file: &RelativePath| match cut.masks.iter().find(|(path, _)| path == file) {
+        Some((_, mask)) => {
+            encode_png(mask.size(), PngPixels::Gray(mask.values())).map_err(|error| error.to_string())
+        }
+        None => world.read(file.as_str()),
+    };
+    Ok(TourSource::read(&cut.tour, &read)?)
 }
 
 /// PSNR and SSIM over the frame, and over water pixels if there are any.

@@ -2,10 +2,14 @@
 
 mod annotate;
 mod backdrops;
+mod bands;
 mod bank;
+mod measure;
 mod source;
 
 pub use annotate::annotations;
+pub use bands::{BandError, BandedTour, CutOptions, cut_bands};
+pub use measure::{DepthHints, StandingHint, background_mask, hints, measure_depth, solve_with};
 pub use source::{TourOnDisk, TourSource};
 
 use glam::UVec2;

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules of `src/`, lowest first.
-const LAYERS: [&str; 14] = [
-    "picture", "camera", "tour", "solve", "scene", "maps", "assemble", "bake", "wind", "water", "motion",
-    "trace", "plugin", "headless",
+const LAYERS: [&str; 15] = [
+    "picture", "camera", "tour", "solve", "depth", "scene", "maps", "assemble", "bake", "wind", "water",
+    "motion", "trace", "plugin", "headless",
 ];
 
 /// Every file below `folder` with this ending, in order.

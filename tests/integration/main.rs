@@ -7,6 +7,7 @@
 mod support;
 
 mod bad_input;
+mod bands;
 mod gpu_matches_trace;
 mod guest;
 mod layers;

@@ -49,7 +49,15 @@ pub(crate) enum Command {
         /// Also draw a sheet to judge the tour by: the picture, what is behind everything, four other views
         #[arg(long, value_name = "FILE.png")]
         sheet: Option<PathBuf>,
+        /// Also draw the distances that the water's mirror image tells, near red, far blue, with a scale in meters
+        #[arg(long, value_name = "FILE.png")]
+        depth: Option<PathBuf>,
     },
+    /// Cut the background into bands at the distances that the water's mirror image tells
+    ///
+    /// NAME.tour.ron gets NAME.bands.tour.ron beside it, and a folder with the masks. A background at one distance stays
+    /// whole and gets that distance. The old tour stays as it is.
+    Bands(BandsArguments),
     /// Write a tour file to start from, with comments that tell what to fill in
     New(NewArguments),
     /// Build all layers of a tour once, so that it opens at once from then on
@@ -63,6 +71,21 @@ pub(crate) enum Command {
         #[arg(long)]
         force: bool,
     },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BandsArguments {
+    /// The tour whose background to cut
+    pub(crate) tour: PathBuf,
+    /// Where to write the new tour; in the folder of the old one
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Cut anew a background that has bands already
+    #[arg(long)]
+    pub(crate) anew: bool,
+    /// Replace a tour file that is already there
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 #[derive(Debug, Args)]

@@ -1,13 +1,16 @@
-//! `check`: every problem of a tour, or else how well its picture is solved, and a sheet of views.
+//! `check`: every problem of a tour, or else how well its picture is solved, a sheet of views, and what the mirror image
+//! tells.
 
 use std::io;
 use std::io::Write;
 use std::path::Path;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use bevy_picture_tour::maps::HALO_LIFT;
 use bevy_picture_tour::solve::Label;
 
+use crate::depth;
 use crate::failure::Failure;
 use crate::open;
 use crate::report::Bounds;
@@ -19,10 +22,19 @@ use crate::report::Water;
 use crate::sheet;
 use crate::table::Table;
 
+/// Pictures to draw beside the report.
+#[derive(Debug)]
+pub(crate) struct Drawings {
+    /// Views to judge the tour by.
+    pub(crate) sheet: Option<PathBuf>,
+    /// Distances by the mirror image.
+    pub(crate) depth: Option<PathBuf>,
+}
+
 /// Checks a tour, or the demo.
-pub(crate) fn run(tour: Option<&Path>, json: bool, sheet: Option<&Path>) -> Result<ExitCode, Failure> {
+pub(crate) fn run(tour: Option<&Path>, json: bool, drawings: &Drawings) -> Result<ExitCode, Failure> {
     let mut stdout = io::stdout().lock();
-    let report = match report(tour, sheet) {
+    let report = match report(tour, drawings) {
         Err(Failure::Problems(problems)) if json => {
             let name = tour.map_or_else(String::new, |tour| tour.display().to_string());
             Report::of_problems(name, &problems)
@@ -40,13 +52,24 @@ pub(crate) fn run(tour: Option<&Path>, json: bool, sheet: Option<&Path>) -> Resu
     Ok(ExitCode::from(u8::from(!report.problems.is_empty())))
 }
 
-fn report(tour: Option<&Path>, sheet: Option<&Path>) -> Result<Report, Failure> {
+fn report(tour: Option<&Path>, drawings: &Drawings) -> Result<Report, Failure> {
     let opened = open::open(tour)?;
+    let source = depth::source_of(&opened, tour)?;
+    if let (None, Some(path)) = (&source, &drawings.depth) {
+        return Err(Failure::CannotRun(format!(
+            "{} cannot be drawn: a baked tour does not keep its picture; check the .tour.ron",
+            path.display()
+        )));
+    }
     let assembled = opened.assemble(&|| false)?;
-    if let Some(path) = sheet {
+    if let Some(path) = &drawings.sheet {
         sheet::save(&assembled, path)?;
     }
-    Ok(Report::of(opened.name, &assembled))
+    let mirrored = match &source {
+        Some(source) => depth::measured(source, &assembled, drawings.depth.as_deref())?,
+        None => None,
+    };
+    Ok(Report::of(opened.name, &assembled, mirrored))
 }
 
 fn write_findings(out: &mut impl Write, tour: &str, findings: &Findings) -> io::Result<()> {
@@ -75,6 +98,9 @@ fn write_findings(out: &mut impl Write, tour: &str, findings: &Findings) -> io::
              at {:.0} %; {ripples}",
             100.0 * fresnel_strength
         )?;
+    }
+    if let Some(mirror) = &findings.mirror_image {
+        depth::write(out, mirror)?;
     }
     let Bounds { left, right, forward, back, up, down } = findings.bounds;
     writeln!(out, "\nThe picture holds up to these distances from where it was taken")?;

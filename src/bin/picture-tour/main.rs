@@ -4,8 +4,10 @@
 
 mod args;
 mod bake;
+mod bands;
 mod check;
 mod demo;
+mod depth;
 mod failure;
 mod film;
 mod frames;
@@ -33,7 +35,10 @@ fn main() -> ExitCode {
         None => play::run(arguments.tour),
         Some(Command::Play { tour }) => play::run(tour),
         Some(Command::Render(arguments)) => render::run(&arguments),
-        Some(Command::Check { tour, json, sheet }) => check::run(tour.as_deref(), json, sheet.as_deref()),
+        Some(Command::Check { tour, json, sheet, depth }) => {
+            check::run(tour.as_deref(), json, &check::Drawings { sheet, depth })
+        }
+        Some(Command::Bands(arguments)) => bands::run(&arguments),
         Some(Command::New(arguments)) => new::run(&arguments),
         Some(Command::Bake { tour, force }) => bake::run(&tour, force),
     };

@@ -117,8 +117,7 @@ impl Opened {
             TourAsset::Built(_, built) => return Ok(Arc::clone(built)),
             TourAsset::Source(source, options) => (source, options),
         };
-        let bar = ProgressBar::new(100).with_style(style("{msg:>46} [{bar:30}] {elapsed}"));
-        bar.enable_steady_tick(Duration::from_millis(100));
+        let bar = bar("");
         let progress = |share: f32, step: &str| {
             bar.set_position((100.0 * share) as u64);
             bar.set_message(step.to_owned());
@@ -139,6 +138,13 @@ impl Opened {
         let problem = Problem::new("", "", message, advice);
         Failure::Problems(Problems::from(problem).with_file(&self.name))
     }
+}
+
+/// A progress bar of 100 steps on stderr, where somebody looks at it.
+pub(crate) fn bar(message: &'static str) -> ProgressBar {
+    let bar = ProgressBar::new(100).with_style(style("{msg:>46} [{bar:30}] {elapsed}")).with_message(message);
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
 }
 
 /// A progress bar's look; indicatif's own where the template does not read.

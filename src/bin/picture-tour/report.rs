@@ -12,6 +12,8 @@ use bevy_picture_tour::tour::Problem;
 use bevy_picture_tour::tour::Problems;
 use serde::Serialize;
 
+use crate::depth::MirrorImage;
+
 /// Everything that `check` found out.
 #[derive(Debug, Serialize)]
 pub(crate) struct Report {
@@ -35,6 +37,8 @@ pub(crate) struct Findings {
     pub(crate) components: Vec<Component>,
     /// None without water.
     pub(crate) water: Option<Water>,
+    /// None without water, and for a tour that was baked.
+    pub(crate) mirror_image: Option<MirrorImage>,
     pub(crate) bounds: Bounds,
 }
 
@@ -112,13 +116,13 @@ impl Report {
     }
 
     /// The report on a sound tour.
-    pub(crate) fn of(tour: String, assembled: &AssembledTour) -> Self {
-        Self { tour, problems: Vec::new(), findings: Some(Findings::of(assembled)) }
+    pub(crate) fn of(tour: String, assembled: &AssembledTour, mirror_image: Option<MirrorImage>) -> Self {
+        Self { tour, problems: Vec::new(), findings: Some(Findings::of(assembled, mirror_image)) }
     }
 }
 
 impl Findings {
-    fn of(assembled: &AssembledTour) -> Self {
+    fn of(assembled: &AssembledTour, mirror_image: Option<MirrorImage>) -> Self {
         let AssembledTour { solution, scene, maps, remarks, .. } = assembled;
         let mut all_remarks = solution.report.remarks.clone();
         all_remarks
@@ -142,6 +146,7 @@ impl Findings {
                 fresnel_strength: maps.tint.strength,
                 ripple_slope: maps.tint.slope,
             }),
+            mirror_image,
             bounds: Bounds {
                 left: at.x - low.x,
                 right: high.x - at.x,
