@@ -1,7 +1,7 @@
 //! Step into a picture: one still picture with water in it becomes a scene one can fly through.
 //!
 //! In a game: [`prelude`], [`plugin`]. Without a window: `headless`. The method itself, without Bevy, in the
-//! order of its data: [`tour`] (the document) → [`solve`] (the camera) → [`depth`] (distances from the mirror image) →
+//! order of its data: [`tour`] (the document) → [`solve`] (the camera), [`suggest`] (what the machine proposes) → [`depth`] (distances from the mirror image) →
 //! [`scene`] (planes in meters) → [`maps`] (what is on them), all run by [`assemble`], kept by [`bake`] → [`wind`] and
 //! [`water`], joined by [`motion`] (what moves) → [`trace`] (the reference image).
 //! [`picture`] and [`camera`] stand below them all.
@@ -17,6 +17,8 @@ pub mod camera;
 pub mod tour;
 
 pub mod solve;
+
+pub mod suggest;
 
 pub mod depth;
 

@@ -4,11 +4,13 @@ mod annotate;
 mod backdrops;
 mod bands;
 mod bank;
+mod drafted;
 mod measure;
 mod source;
 
 pub use annotate::annotations;
 pub use bands::{BandError, BandedTour, CutOptions, cut_bands};
+pub use drafted::{DraftedTour, draft_tour};
 pub use measure::{DepthHints, StandingHint, background_mask, hints, measure_depth, solve_with};
 pub use source::{TourOnDisk, TourSource};
 

@@ -2,6 +2,7 @@
 
 mod annotation;
 mod check;
+pub mod edit;
 mod file;
 mod fit;
 mod geometry;

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules of `src/`, lowest first.
-const LAYERS: [&str; 15] = [
-    "picture", "camera", "tour", "solve", "depth", "scene", "maps", "assemble", "bake", "wind", "water",
-    "motion", "trace", "plugin", "headless",
+const LAYERS: [&str; 16] = [
+    "picture", "camera", "tour", "solve", "suggest", "depth", "scene", "maps", "assemble", "bake", "wind",
+    "water", "motion", "trace", "plugin", "headless",
 ];
 
 /// Every file below `folder` with this ending, in order.
@@ -47,8 +47,9 @@ fn modules_use_only_what_stands_below_them() {
     for (rank, module) in LAYERS.iter().enumerate() {
         let files = files_below(&src().join(module), "rs");
         assert!(!files.is_empty(), "src/{module} has no file");
-        for file in files {
-            let source = fs::read_to_string(&file).unwrap();
+        // Tests may ask what stands above whether it can use what they made.
+        for file in files.iter().filter(|file| !file.iter().any(|step| step == "tests")) {
+            let source = fs::read_to_string(file).unwrap();
             for (number, line) in source.lines().enumerate().filter(|(_, line)| !is_comment(line)) {
                 for used in modules_used(line) {
                     uses += 1;

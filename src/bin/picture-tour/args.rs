@@ -97,6 +97,9 @@ pub(crate) struct NewArguments {
     /// Left out, it is written beside the picture: lake.png gets lake.tour.ron.
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
+    /// Let the machine find horizon, reflection pairs, water, sky and distances, and tell what of it to trust
+    #[arg(long)]
+    pub(crate) auto: bool,
     /// Replace a tour file that is already there
     #[arg(long)]
     pub(crate) force: bool,

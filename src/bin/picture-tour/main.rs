@@ -3,8 +3,10 @@
 //! Exit status: 0 done, 1 problems found in a tour, 2 could not run. Results go to stdout, errors to stderr.
 
 mod args;
+mod auto;
 mod bake;
 mod bands;
+mod beside;
 mod check;
 mod demo;
 mod depth;

@@ -10,8 +10,10 @@ use std::process::ExitCode;
 use bevy_picture_tour::picture::decode_picture;
 use bevy_picture_tour::tour::RelativePath;
 use bevy_picture_tour::tour::Tour;
+use glam::UVec2;
 
 use crate::args::NewArguments;
+use crate::auto;
 use crate::failure::Failure;
 
 /// Writes a tour file for a picture.
@@ -26,6 +28,16 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<ExitCode, Failure> {
     let out = arguments.out.clone().unwrap_or_else(|| picture.with_extension("tour.ron"));
     let relative = relative_to_folder_of(picture, &out).map_err(cannot)?;
     let size = decoded.picture.size();
+    if arguments.auto {
+        auto::write(&decoded, &relative, &out, arguments.force)?;
+        return tell(
+            &decoded.notes,
+            &out,
+            &relative,
+            size,
+            "fly through it, and mend what is not to be trusted",
+        );
+    }
     let text = Tour::template(relative.as_str(), size);
     if Tour::read(&text).is_err() {
         return Err(cannot(format!(
@@ -34,17 +46,25 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<ExitCode, Failure> {
         )));
     }
     write(&out, &text, arguments.force)?;
+    let next = "open it in a text editor; set the horizon, the water, and some reflection pairs";
+    tell(&decoded.notes, &out, &relative, size, next)
+}
 
+/// Says what was written, and what to do next.
+fn tell(
+    notes: &[String],
+    out: &Path,
+    relative: &RelativePath,
+    size: UVec2,
+    next: &str,
+) -> Result<ExitCode, Failure> {
     let mut stdout = std::io::stdout().lock();
-    for note in &decoded.notes {
+    for note in notes {
         writeln!(stdout, "note: {note}")?;
     }
     let out = out.display();
     writeln!(stdout, "wrote {out} for {relative} ({} x {} px)", size.x, size.y)?;
-    writeln!(
-        stdout,
-        "next: open it in a text editor; set the horizon, the water, and some reflection pairs"
-    )?;
+    writeln!(stdout, "next: {next}")?;
     writeln!(stdout, "then: picture-tour check \"{out}\"    tells what is wrong and how well it is solved")?;
     writeln!(stdout, "      picture-tour \"{out}\"          flies through it")?;
     Ok(ExitCode::SUCCESS)

@@ -1,0 +1,74 @@
+//! A tour's file and the new masks beside it, written together or not at all.
+
+use std::path::{Path, PathBuf};
+
+use bevy_picture_tour::picture::{Mask, PngPixels, save_png};
+use bevy_picture_tour::tour::{RelativePath, Tour};
+
+use crate::failure::Failure;
+
+/// Ending of tour files.
+pub(crate) const ENDING: &str = ".tour.ron";
+
+/// The name of a folder for the masks of the tour at `out` that is not there yet: masks that are there may be somebody's
+/// work, and other tours name them.
+pub(crate) fn new_masks_folder(out: &Path) -> Result<RelativePath, Failure> {
+    let stem = stem(out)?;
+    let names = std::iter::once(String::new()).chain((2..).map(|number| format!("_{number}")));
+    let name = names
+        .map(|end| format!("{stem}.masks{end}"))
+        .find(|name| !folder(out).join(name).exists())
+        .unwrap_or_default();
+    RelativePath::new(&name).map_err(|error| {
+        Failure::CannotRun(format!("{name:?} cannot stand in a tour: {error}; name another --out"))
+    })
+}
+
+/// Writes masks and tour, or neither: the tour comes last, and without it the masks' new folder goes again.
+pub(crate) fn write(
+    tour: &Tour,
+    masks: &[(RelativePath, Mask)],
+    masks_folder: &RelativePath,
+    out: &Path,
+) -> Result<(), Failure> {
+    let cannot = |error: &dyn std::fmt::Display| {
+        Failure::CannotRun(format!(
+            "{} cannot be written ({error}); name another file with --out",
+            out.display()
+        ))
+    };
+    if masks.is_empty() {
+        return tour.save(out).map_err(|error| cannot(&error));
+    }
+    let new_folder = masks_folder.in_folder(&folder(out));
+    std::fs::create_dir(&new_folder).map_err(|error| cannot(&error))?;
+    let written = masks
+        .iter()
+        .try_for_each(|(path, mask)| {
+            save_png(&path.in_folder(&folder(out)), mask.size(), PngPixels::Gray(mask.values()))
+                .map_err(|error| cannot(&error))
+        })
+        .and_then(|()| tour.save(out).map_err(|error| cannot(&error)));
+    if written.is_err() {
+        // The error that led here is the one to tell.
+        let _ = std::fs::remove_dir_all(new_folder);
+    }
+    written
+}
+
+/// The folder that a file is in.
+pub(crate) fn folder(path: &Path) -> PathBuf {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
+}
+
+/// A tour file's name without its ending.
+pub(crate) fn stem(path: &Path) -> Result<String, Failure> {
+    let name = path.file_name().and_then(|name| name.to_str());
+    let stem = name.map(|name| name.strip_suffix(ENDING).unwrap_or(name.split('.').next().unwrap_or(name)));
+    stem.filter(|stem| !stem.is_empty()).map(str::to_owned).ok_or_else(|| {
+        Failure::CannotRun(format!(
+            "{} is no name for a tour; name one that ends in {ENDING}",
+            path.display()
+        ))
+    })
+}

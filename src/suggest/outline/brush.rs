@@ -1,0 +1,237 @@
+//! Painting and erasing on a mask, with undo.
+//!
+//! A stroke covers by the distance to its polyline, not by dabs, so it shows no beads, and going over the same place
+//! again changes nothing: a stroke painted piece by piece as the pointer moves is the stroke painted at once.
+
+use glam::UVec2;
+
+use super::stroke::for_each_near;
+use crate::picture::{Mask, PicturePoint, PixelRect};
+
+/// What a brush does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BrushMode {
+    /// Adds coverage.
+    Paint,
+    /// Takes coverage away.
+    Erase,
+}
+
+/// A round brush.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Brush {
+    /// Where its effect ends, pixels from its middle; used as 0.5–4096, 0.5 when not finite.
+    pub radius: f64,
+    /// Share of the radius with full effect, 0–1; beyond it the effect falls smoothly. Even the hardest brush has an edge
+    /// of one pixel. 1 when not finite.
+    pub hardness: f64,
+    /// What it does.
+    pub mode: BrushMode,
+}
+
+/// A mask that is being painted on.
+#[derive(Clone, PartialEq, Eq)]
+pub struct MaskCanvas {
+    size: UVec2,
+    coverage: Vec<u8>,
+}
+
+/// A block of a canvas as it was, to be [swapped](MaskCanvas::swap) in: one for undo, the same for redo.
+#[derive(Clone, PartialEq, Eq)]
+pub struct MaskPatch {
+    rect: PixelRect,
+    coverage: Vec<u8>,
+}
+
+impl std::fmt::Debug for MaskCanvas {
+    /// The size alone: nobody reads millions of pixels.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("MaskCanvas").field("size", &self.size).finish_non_exhaustive()
+    }
+}
+
+impl std::fmt::Debug for MaskPatch {
+    /// The block alone.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("MaskPatch").field("rect", &self.rect).finish_non_exhaustive()
+    }
+}
+
+impl MaskPatch {
+    /// The block that it replaces, pixels.
+    #[must_use]
+    pub const fn rect(&self) -> PixelRect {
+        self.rect
+    }
+}
+
+impl Brush {
+    /// The radius as it is used, pixels.
+    fn reach(&self) -> f64 {
+        if self.radius.is_finite() { self.radius.clamp(0.5, 4096.0) } else { 0.5 }
+    }
+
+    /// Effect at a distance from the middle of the stroke, 0–255.
+    fn effect(&self, distance: f64) -> u8 {
+        let hardness = if self.hardness.is_finite() { self.hardness.clamp(0.0, 1.0) } else { 1.0 };
+        let reach = self.reach();
+        // Falls to one half at the middle of the soft rim; the rim of the hardest brush is a pixel wide around the radius.
+        let soft = (reach * (1.0 - hardness)).max(1.0);
+        let end = reach.max(reach * hardness + 0.5);
+        let share = ((end - distance) / soft).clamp(0.0, 1.0);
+        (share * share * (3.0 - 2.0 * share) * 255.0).round() as u8
+    }
+}
+
+impl MaskCanvas {
+    /// A canvas that shows `mask`.
+    #[must_use]
+    pub fn new(mask: &Mask) -> Self {
+        Self { size: mask.size(), coverage: mask.values().to_vec() }
+    }
+
+    /// The mask as it is now.
+    #[must_use]
+    pub fn mask(&self) -> Mask {
+        let mask = Mask::new(self.size, self.coverage.clone());
+        mask.unwrap_or_else(|_| unreachable!("a canvas has its mask's size and count"))
+    }
+
+    /// Width and height, pixels.
+    #[must_use]
+    pub const fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    /// All values, 0–255, row by row from the top left.
+    #[must_use]
+    pub fn values(&self) -> &[u8] {
+        &self.coverage
+    }
+
+    /// Draws along a polyline (one point: a dab) and returns how the smallest block that changed was before; `None` when
+    /// nothing changed. Points that are not finite are left out.
+    pub fn draw(&mut self, brush: &Brush, points: &[PicturePoint]) -> Option<MaskPatch> {
+        let width = self.size.x;
+        let mut changed: Option<PixelRect> = None;
+        let mut before: Vec<(u32, u8)> = Vec::new();
+        let coverage = &mut self.coverage;
+        for_each_near(self.size, points, brush.reach() + 1.0, |x, y, distance| {
+            let index = (y * width + x) as usize;
+            let effect = brush.effect(distance);
+            let old = coverage[index];
+            let new = match brush.mode {
+                BrushMode::Paint => old.max(effect),
+                BrushMode::Erase => old.min(255 - effect),
+            };
+            if new == old {
+                return;
+            }
+            coverage[index] = new;
+            before.push((index as u32, old));
+            let pixel = UVec2::new(x, y);
+            let rect = changed.get_or_insert(PixelRect { min: pixel, max: pixel + 1 });
+            (rect.min, rect.max) = (rect.min.min(pixel), rect.max.max(pixel + 1));
+        });
+        let rect = changed?;
+        let mut patch = MaskPatch { rect, coverage: self.block(rect) };
+        // What changed first last: segments overlap, and the oldest value is the one before.
+        for (index, old) in before.into_iter().rev() {
+            let [x, y] = [index % width - rect.min.x, index / width - rect.min.y];
+            patch.coverage[(y * rect.size().x + x) as usize] = old;
+        }
+        Some(patch)
+    }
+
+    /// Exchanges a block for what a patch holds: swapped once it is undone, swapped again redone. A patch of a larger
+    /// canvas changes nothing.
+    pub fn swap(&mut self, patch: &mut MaskPatch) {
+        if patch.rect.max.cmpgt(self.size).any() {
+            return;
+        }
+        let now = self.block(patch.rect);
+        let columns = patch.rect.min.x as usize..patch.rect.max.x as usize;
+        let rows = self.coverage.chunks_exact_mut(self.size.x as usize).skip(patch.rect.min.y as usize);
+        for (row, values) in rows.zip(patch.coverage.chunks_exact(columns.len())) {
+            row[columns.clone()].copy_from_slice(values);
+        }
+        patch.coverage = now;
+    }
+
+    fn block(&self, rect: PixelRect) -> Vec<u8> {
+        let columns = rect.min.x as usize..rect.max.x as usize;
+        let rows = self.coverage.chunks_exact(self.size.x as usize).skip(rect.min.y as usize);
+        rows.take(rect.size().y as usize).flat_map(|row| &row[columns.clone()]).copied().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: UVec2 = UVec2::new(120, 80);
+
+    fn canvas(value: u8) -> MaskCanvas {
+        MaskCanvas::new(&Mask::new(SIZE, vec![value; 9600]).unwrap())
+    }
+
+    fn points(points: &[(f64, f64)]) -> Vec<PicturePoint> {
+        points.iter().map(|(x, y)| PicturePoint::new(*x, *y)).collect()
+    }
+
+    const SOFT: Brush = Brush { radius: 9.0, hardness: 0.4, mode: BrushMode::Paint };
+
+    #[test]
+    fn a_stroke_has_no_beads() {
+        let mut canvas = canvas(0);
+        canvas.draw(&SOFT, &points(&[(15.0, 40.0), (40.0, 40.0), (41.0, 40.0), (105.0, 40.0)]));
+        for y in 0..80 {
+            let row: Vec<u8> = (15..105).map(|x| canvas.values()[y * 120 + x]).collect();
+            assert!(row.iter().all(|value| *value == row[0]), "row {y} is uneven: {row:?}");
+        }
+        assert_eq!(canvas.values()[40 * 120 + 60], 255);
+        assert!((1..255).contains(&canvas.values()[46 * 120 + 60]));
+        assert_eq!(canvas.values()[50 * 120 + 60], 0);
+    }
+
+    #[test]
+    fn piece_by_piece_is_at_once() {
+        let line = points(&[(10.0, 10.0), (50.0, 33.0), (55.0, 60.0), (90.0, 20.0)]);
+        let [mut whole, mut pieces] = [canvas(0), canvas(0)];
+        whole.draw(&SOFT, &line);
+        line.windows(2).for_each(|piece| drop(pieces.draw(&SOFT, piece)));
+        assert!(whole == pieces);
+    }
+
+    #[test]
+    fn undo_and_redo_are_one_small_patch() {
+        let mut canvas = canvas(180);
+        let untouched = canvas.clone();
+        let erase = Brush { radius: 6.0, hardness: 1.0, mode: BrushMode::Erase };
+        let mut patch = canvas.draw(&erase, &points(&[(30.0, 30.0), (60.0, 40.0), (40.0, 45.0)])).unwrap();
+        let erased = canvas.clone();
+        let rect = patch.rect();
+        assert!(
+            rect.min.cmpge(UVec2::new(23, 23)).all() && rect.max.cmple(UVec2::new(67, 52)).all(),
+            "{rect:?}"
+        );
+        canvas.swap(&mut patch);
+        assert!(canvas == untouched, "undone");
+        canvas.swap(&mut patch);
+        assert!(canvas == erased, "redone");
+        assert!(canvas.draw(&erase, &points(&[(30.0, 30.0)])).is_none(), "nothing is left to erase there");
+    }
+
+    #[test]
+    fn a_hard_dab_has_its_radius_and_bad_numbers_do_no_harm() {
+        let mut canvas = canvas(0);
+        let hard = Brush { radius: 20.0, hardness: 1.0, mode: BrushMode::Paint };
+        canvas.draw(&hard, &points(&[(60.0, 40.0)]));
+        let area = canvas.values().iter().map(|value| f64::from(*value) / 255.0).sum::<f64>();
+        let disc = std::f64::consts::PI * 400.0;
+        assert!((area - disc).abs() < 0.01 * disc, "{area} against {disc}");
+        assert!(canvas.draw(&hard, &points(&[(f64::NAN, 3.0), (1e300, 1e300)])).is_none());
+        let odd = Brush { radius: f64::NAN, hardness: f64::INFINITY, mode: BrushMode::Erase };
+        assert!(canvas.draw(&odd, &points(&[(60.0, 40.0)])).is_some());
+    }
+}

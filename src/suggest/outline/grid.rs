@@ -1,0 +1,206 @@
+//! A block of the picture as a grid to be cut: what is certain, what borders cost, the cut of least energy.
+
+use rayon::prelude::*;
+
+use super::hints::ObjectHints;
+use super::max_flow::{GridCut, STEPS};
+use super::mixture::Mixture;
+use super::scaled::Scaled;
+use crate::picture::{Picture, PixelRect};
+
+/// What a border across even color costs a link (γ of the paper).
+const GAMMA: f32 = 50.0;
+
+/// Steps of energy: capacities are integers.
+const SCALE: f32 = 65_536.0;
+
+/// A capacity above all links of a cell together.
+const CERTAIN: i32 = 1 << 29;
+
+/// What it costs at most, each cell, to be on the side whose marks are farther away, natural logarithm of a likelihood ratio:
+/// colors decide, places where they are undecided.
+const LEAN: f32 = 2.0;
+
+/// How far from the border of a coarser grid the finer one may run, cells of the coarser.
+const BAND: usize = 4;
+
+/// A block of the picture to be cut.
+#[derive(Debug)]
+pub(super) struct Grid {
+    pub scaled: Scaled,
+    /// What is certain of each cell.
+    pub known: Vec<Option<bool>>,
+    /// What a border towards the neighbors at the steps 0, 2, 4, 6 costs, in steps of energy.
+    links: Vec<[i32; 4]>,
+    /// What being inside costs for its place, below 0: being outside.
+    lean: Vec<f32>,
+}
+
+impl Grid {
+    /// The block `rect` on at most `most` cells (nearly).
+    pub(super) fn new(picture: &Picture, hints: &ObjectHints, rect: PixelRect, most: u32) -> Self {
+        let scaled = Scaled::new(picture, rect, most);
+        let known = hints.known(picture.size(), &scaled);
+        Self { links: links(&scaled), lean: lean(&scaled, &known), known, scaled }
+    }
+
+    /// Makes certain what a coarser grid says farther than the band from its border.
+    pub(super) fn keep_far_from_border(&mut self, coarse: &Scaled, inside: &[bool]) {
+        let (width, height) = (coarse.width, coarse.height);
+        // Cells that all within the band around agree with, rows first.
+        let all_near = |is: &[bool], step: usize, count: usize| -> Vec<bool> {
+            let cells = (0..is.len()).into_par_iter();
+            cells
+                .map(|cell| {
+                    let at = cell / step % count;
+                    let (back, on) = (at.min(BAND), (count - 1 - at).min(BAND));
+                    (0..=back + on).all(|k| is[cell - back * step + k * step])
+                })
+                .collect()
+        };
+        let far_within = |is: &[bool]| all_near(&all_near(is, 1, width), width, height);
+        let outside: Vec<bool> = inside.iter().map(|inside| !inside).collect();
+        let [outer, inner] = [far_within(&outside), far_within(inside)];
+        for (cell, known) in self.known.iter_mut().enumerate() {
+            let pixel = self.scaled.pixel(cell);
+            let Some(coarse) = coarse.cell(pixel.x, pixel.y) else { continue };
+            if known.is_none() && (outer[coarse] || inner[coarse]) {
+                *known = Some(inner[coarse]);
+            }
+        }
+    }
+
+    /// What each cell costs outside and inside, for its color and its place.
+    pub(super) fn costs(&self, mixtures: &[Mixture; 2]) -> Vec<[f32; 2]> {
+        let cells = self.scaled.colors.par_iter().zip(&self.lean);
+        cells
+            .map(|(color, lean)| {
+                let [outer, inner] = [0, 1].map(|side| mixtures[side].cheapest(*color).1);
+                [outer + (-lean).max(0.0), inner + lean.max(0.0)]
+            })
+            .collect()
+    }
+
+    /// The labels of least energy, given what each cell costs outside and inside; `None` when `go_on` said no.
+    pub(super) fn cut(&self, costs: &[[f32; 2]], go_on: &dyn Fn() -> bool) -> Option<Vec<bool>> {
+        let mut grid = GridCut::new(self.scaled.width, self.scaled.height);
+        for (cell, known) in self.known.iter().enumerate() {
+            let [outer, inner] = costs[cell];
+            let capacity = match known {
+                Some(true) => CERTAIN,
+                Some(false) => -CERTAIN,
+                // Kept below certainty; beyond a thousand nothing changes.
+                None => ((outer - inner).clamp(-1000.0, 1000.0) * SCALE) as i32,
+            };
+            grid.set_terminal(cell, capacity);
+            for (half, capacity) in self.links[cell].iter().enumerate() {
+                if *capacity > 0 {
+                    grid.set_link(cell, 2 * half, *capacity);
+                }
+            }
+        }
+        grid.cut(go_on)?;
+        Some((0..costs.len()).map(|cell| grid.is_with_source(cell)).collect())
+    }
+
+    /// Share of the cells that are not certain which labels put inside.
+    pub(super) fn share_of_free(&self, inside: &[bool]) -> f64 {
+        let free = || self.known.iter().zip(inside).filter(|(known, _)| known.is_none());
+        free().filter(|(_, inside)| **inside).count() as f64 / free().count().max(1) as f64
+    }
+
+    /// What labels cost, data and border together.
+    pub(super) fn energy(&self, costs: &[[f32; 2]], inside: &[bool]) -> f64 {
+        let width = self.scaled.width as isize;
+        let mut energy = 0.0;
+        for (cell, label) in inside.iter().enumerate() {
+            energy += f64::from(costs[cell][usize::from(*label)]);
+            for (half, capacity) in self.links[cell].iter().enumerate() {
+                let [dx, dy] = STEPS[2 * half];
+                let next = cell.wrapping_add_signed(dy as isize * width + dx as isize);
+                if *capacity > 0 && inside[next] != *label {
+                    energy += f64::from(*capacity) / f64::from(SCALE);
+                }
+            }
+        }
+        energy
+    }
+}
+
+/// What a border between a cell and its neighbors at the steps 0, 2, 4, 6 costs, in steps of energy; 0 beyond the block.
+fn links(scaled: &Scaled) -> Vec<[i32; 4]> {
+    let (width, height) = (scaled.width, scaled.height);
+    let neighbor = |cell: usize, step: usize| {
+        let x = cell % width + 1;
+        let x = x.wrapping_add_signed(STEPS[step][0] as isize);
+        let y = cell / width + STEPS[step][1] as usize;
+        (x >= 1 && x <= width && y < height).then(|| y * width + x - 1)
+    };
+    let contrast = |a: usize, b: usize| scaled.colors[a].distance_squared(scaled.colors[b]);
+    // Row by row in order, so that the sum does not depend on the number of cores.
+    let rows: Vec<[f64; 2]> = (0..height)
+        .into_par_iter()
+        .map(|y| {
+            let mut sums = [0.0; 2];
+            for cell in y * width..(y + 1) * width {
+                for step in [0, 2, 4, 6] {
+                    if let Some(next) = neighbor(cell, step) {
+                        sums[0] += f64::from(contrast(cell, next));
+                        sums[1] += 1.0;
+                    }
+                }
+            }
+            sums
+        })
+        .collect();
+    let [sum, count] = rows.iter().fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+    // An even picture has no contrast to compare with.
+    let beta = if sum > 0.0 { (count / (2.0 * sum)) as f32 } else { 0.0 };
+    (0..width * height)
+        .into_par_iter()
+        .map(|cell| {
+            [0, 2, 4, 6].map(|step| {
+                neighbor(cell, step).map_or(0, |next| {
+                    let length = if step < 4 { 1.0 } else { std::f32::consts::SQRT_2 };
+                    (SCALE * GAMMA * (-beta * contrast(cell, next)).exp() / length) as i32
+                })
+            })
+        })
+        .collect()
+}
+
+/// By how much nearer each cell is to what is certainly outside than to what is certainly inside, as a cost; nothing where
+/// one of them is missing.
+fn lean(scaled: &Scaled, known: &[Option<bool>]) -> Vec<f32> {
+    if !known.contains(&Some(true)) || !known.contains(&Some(false)) {
+        return vec![0.0; known.len()];
+    }
+    let [to_outer, to_inner] = [false, true].map(|side| distances(scaled.width, known, side));
+    let share = |(outer, inner): (&f32, &f32)| LEAN * (inner - outer) / (inner + outer).max(1.0);
+    to_outer.iter().zip(&to_inner).map(share).collect()
+}
+
+/// Distance of each cell to the nearest one that is certainly on `side`, cells, 8 % too far at most (Borgefors 1986).
+fn distances(width: usize, known: &[Option<bool>], side: bool) -> Vec<f32> {
+    let mut distances: Vec<f32> =
+        known.iter().map(|known| if *known == Some(side) { 0.0 } else { f32::MAX }).collect();
+    let cells = known.len();
+    let mut pull = |cell: usize, is_back: bool| {
+        let (x, w) = (cell % width, width as isize);
+        let sign = if is_back { -1 } else { 1 };
+        for (step, length) in
+            [(1, 1.0), (w, 1.0), (w + 1, std::f32::consts::SQRT_2), (w - 1, std::f32::consts::SQRT_2)]
+        {
+            let Some(next) = cell.checked_add_signed(sign * step).filter(|next| *next < cells) else {
+                continue;
+            };
+            // Steps wrap around from row to row.
+            if (next % width).abs_diff(x) <= 1 {
+                distances[cell] = distances[cell].min(distances[next] + length);
+            }
+        }
+    };
+    (0..cells).for_each(|cell| pull(cell, true));
+    (0..cells).rev().for_each(|cell| pull(cell, false));
+    distances
+}

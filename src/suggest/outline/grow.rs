@@ -1,0 +1,226 @@
+//! A region grown from a stroke or a click: water, sky, ground.
+//!
+//! It spreads from cell to neighboring cell while color goes on as it did (a running mean is handed on, so slow gradients are
+//! followed), stays of the stroke's kind, is no rougher than the stroke, and crosses no edge that is strong for the
+//! stroke's own texture.
+
+use std::collections::VecDeque;
+
+use glam::{UVec2, Vec3};
+use rayon::prelude::*;
+
+use super::guided::upsampled;
+use super::parts::fill_holes;
+use super::scaled::Scaled;
+use super::stroke::for_each_near;
+use super::{OutlineError, Stroke};
+use crate::picture::{Mask, Picture, PicturePoint, PixelRect};
+
+/// Most cells that are looked at.
+const MOST_CELLS: u32 = 1 << 19;
+
+/// Cells to each side that texture is judged by.
+const REACH: usize = 2;
+
+/// Noise of colors that is always borne, 0–1: standard deviation.
+const NOISE: f32 = 0.012;
+
+/// How much of the difference to the running mean a cell hands on.
+const DRIFT: f32 = 0.06;
+
+/// Bounds in units of the stroke's own: difference to the running mean, step to the neighbor, roughness.
+const FROM_MEAN: f32 = 3.0;
+const STEP: f32 = 3.0;
+const ROUGHNESS: f32 = 1.6;
+
+/// How far from the stroke's colors a gradient may lead, 0–1, besides what the stroke itself spans.
+const FAR: f32 = 0.25;
+
+/// Holes of less than this share of all cells are filled.
+const HOLE: f64 = 0.001;
+
+/// How a region grows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GrowOptions {
+    /// What it takes for the region to stop, against what the stroke shows: 1 is usual, more grows on. Used as 0.1–10, 1
+    /// when not finite.
+    pub tolerance: f64,
+    /// A line that the region does not cross, and the side that it stays on: water and ground stay below the horizon
+    /// (better: the waterline), sky above it. A line of points that are not finite or fall together is none.
+    pub bound: Option<GrowBound>,
+}
+
+/// A side of a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GrowBound {
+    /// Two points of the line.
+    pub line: [PicturePoint; 2],
+    /// Whether the region is the side of smaller y.
+    pub is_above: bool,
+}
+
+impl GrowBound {
+    fn holds(&self, pixel: UVec2) -> bool {
+        let [a, b] = self.line.map(|point| point.0);
+        let along = (b - a) * (b.x - a.x).signum();
+        let below = along.perp_dot(pixel.as_dvec2() + 0.5 - a);
+        // Not a number for a line that is none.
+        below.is_nan() || (if self.is_above { below <= 0.0 } else { below >= 0.0 })
+    }
+}
+
+impl Default for GrowOptions {
+    fn default() -> Self {
+        Self { tolerance: 1.0, bound: None }
+    }
+}
+
+/// The region around a stroke (of either side), of the picture's size, soft along its border.
+///
+/// # Errors
+///
+/// [`OutlineError::NothingMarked`] when no pixel (on the bound's side) lies under the stroke.
+pub fn grow(picture: &Picture, stroke: &Stroke, options: GrowOptions) -> Result<Mask, OutlineError> {
+    let tolerance =
+        if options.tolerance.is_finite() { options.tolerance.clamp(0.1, 10.0) as f32 } else { 1.0 };
+    let size = picture.size();
+    let whole = PixelRect { min: UVec2::ZERO, max: size };
+    let scaled = Scaled::new(picture, whole, MOST_CELLS);
+    let mut inside = vec![false; scaled.colors.len()];
+    for_each_near(size, &stroke.points, stroke.reach(), |x, y, _| {
+        if let Some(cell) = scaled.cell(x, y) {
+            inside[cell] = true;
+        }
+    });
+    let is_allowed: Vec<bool> = (0..inside.len())
+        .map(|cell| options.bound.is_none_or(|bound| bound.holds(scaled.pixel(cell))))
+        .collect();
+    inside.iter_mut().zip(&is_allowed).for_each(|(inside, allowed)| *inside &= allowed);
+    let seeds: Vec<usize> = (0..inside.len()).filter(|cell| inside[*cell]).collect();
+    if seeds.is_empty() {
+        return Err(OutlineError::NothingMarked);
+    }
+    let matter = Matter::of(&scaled);
+    let kind = Kind::of(&matter, &seeds, tolerance);
+    spread(&matter, &kind, &seeds, &is_allowed, &mut inside);
+    let most = (HOLE * inside.len() as f64) as usize;
+    fill_holes(matter.width, &mut inside, most);
+    Ok(upsampled(picture, &scaled, &inside))
+}
+
+/// What each cell is like.
+#[derive(Debug)]
+struct Matter {
+    width: usize,
+    height: usize,
+    /// Mean color of three by three cells.
+    colors: Vec<Vec3>,
+    /// Standard deviation of color around the cell, 0–1.
+    roughness: Vec<f32>,
+}
+
+impl Matter {
+    fn of(scaled: &Scaled) -> Self {
+        let (width, height) = (scaled.width, scaled.height);
+        let mean =
+            |reach: usize, value: &(dyn Fn(usize) -> Vec3 + Sync)| box_means(width, height, reach, value);
+        let colors = mean(1, &|cell| scaled.colors[cell]);
+        let means = mean(REACH, &|cell| scaled.colors[cell]);
+        let squares = mean(REACH, &|cell| scaled.colors[cell] * scaled.colors[cell]);
+        let variance =
+            means.par_iter().zip(&squares).map(|(mean, square)| (*square - *mean * *mean).element_sum());
+        let roughness = variance.map(|variance| variance.max(0.0).sqrt()).collect();
+        Self { width, height, colors, roughness }
+    }
+}
+
+/// Means over the cells within `reach` of each cell in both directions.
+fn box_means(width: usize, height: usize, reach: usize, value: &(dyn Fn(usize) -> Vec3 + Sync)) -> Vec<Vec3> {
+    let mut means = vec![Vec3::ZERO; width * height];
+    means.par_chunks_mut(width).enumerate().for_each_init(Vec::new, |columns, (y, row)| {
+        columns.clear();
+        columns.resize(width, Vec3::ZERO);
+        let rows = y.saturating_sub(reach)..(y + reach + 1).min(height);
+        let count = rows.len() as f32;
+        for other in rows {
+            for (x, column) in columns.iter_mut().enumerate() {
+                *column += value(other * width + x);
+            }
+        }
+        for (x, mean) in row.iter_mut().enumerate() {
+            let near = &columns[x.saturating_sub(reach)..(x + reach + 1).min(width)];
+            *mean = near.iter().sum::<Vec3>() / (count * near.len() as f32);
+        }
+    });
+    means
+}
+
+/// What the stroke says of the region: bounds for its cells.
+#[derive(Debug)]
+struct Kind {
+    /// A few of the stroke's colors.
+    colors: Vec<Vec3>,
+    far: f32,
+    from_mean: f32,
+    step: f32,
+    roughness: f32,
+}
+
+impl Kind {
+    fn of(matter: &Matter, seeds: &[usize], tolerance: f32) -> Self {
+        // The roughest twentieth may be a speck under the stroke.
+        let usual = |mut values: Vec<f32>| {
+            values.sort_by(f32::total_cmp);
+            values[(values.len() * 19 / 20).min(values.len() - 1)]
+        };
+        let roughness = usual(seeds.iter().map(|cell| matter.roughness[*cell]).collect()).max(NOISE);
+        let steps = seeds.iter().filter(|cell| *cell % matter.width + 1 < matter.width);
+        let steps =
+            steps.map(|cell| matter.colors[*cell].distance(matter.colors[cell + 1])).collect::<Vec<_>>();
+        let step = if steps.is_empty() { NOISE } else { usual(steps).max(NOISE) };
+        let every = seeds.len().div_ceil(32);
+        Self {
+            colors: seeds.iter().step_by(every).map(|cell| matter.colors[*cell]).collect(),
+            far: tolerance * FAR,
+            from_mean: tolerance * FROM_MEAN * roughness,
+            step: tolerance * STEP * step,
+            roughness: tolerance * ROUGHNESS * roughness,
+        }
+    }
+
+    fn is_like(&self, color: Vec3) -> bool {
+        self.colors.iter().any(|own| own.distance_squared(color) <= self.far * self.far)
+    }
+}
+
+/// Adds to `inside` what the seeds reach, in rings around them.
+fn spread(matter: &Matter, kind: &Kind, seeds: &[usize], is_allowed: &[bool], inside: &mut [bool]) {
+    let (width, height) = (matter.width, matter.height);
+    let mut front: VecDeque<(usize, Vec3)> = seeds.iter().map(|cell| (*cell, matter.colors[*cell])).collect();
+    while let Some((cell, mean)) = front.pop_front() {
+        let (x, y) = (cell % width, cell / width);
+        let near = [
+            (x > 0).then(|| cell - 1),
+            (x + 1 < width).then(|| cell + 1),
+            (y > 0).then(|| cell - width),
+            (y + 1 < height).then(|| cell + width),
+        ];
+        for next in near.into_iter().flatten() {
+            let color = matter.colors[next];
+            let goes_on = !inside[next]
+                && is_allowed[next]
+                && matter.roughness[next] <= kind.roughness
+                && color.distance(mean) <= kind.from_mean
+                && color.distance(matter.colors[cell]) <= kind.step
+                && kind.is_like(color);
+            if goes_on {
+                inside[next] = true;
+                front.push_back((next, mean.lerp(color, DRIFT)));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "grow_tests.rs"]
+mod tests;

@@ -1,0 +1,145 @@
+//! What a person says about where an object is, and what follows for each cell.
+
+use glam::{DVec2, UVec2, Vec3};
+use rayon::prelude::*;
+
+use super::mixture::Mixture;
+use super::scaled::Scaled;
+use super::stroke::for_each_near;
+use super::{OutlineError, Side, Stroke};
+use crate::picture::{Mask, PicturePoint, PixelRect};
+
+/// The surroundings of a box that are looked at, as a share of its sides, and at least, pixels.
+const MARGIN: f64 = 0.5;
+const LEAST_MARGIN: f64 = 24.0;
+
+/// What costs more on the outer side than this share of what is certainly there is at first taken for the object.
+const USUAL: f64 = 0.9;
+
+/// Seed of the mixture that tells what is strange.
+const SEED: u64 = 3;
+
+/// What a person says about where an object is.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ObjectHints<'a> {
+    /// Two opposite corners of a box outside which nothing of the object is.
+    pub corners: Option<[PicturePoint; 2]>,
+    /// Strokes on the object and beside it; later ones win.
+    pub strokes: &'a [Stroke],
+    /// A first guess, to be mended.
+    pub earlier: Option<&'a Mask>,
+    /// Whether holes in it are filled: right for a house or a boat, wrong for foliage.
+    pub is_solid: bool,
+}
+
+impl ObjectHints<'_> {
+    /// Low and high corner of the box within the picture; `None` without one that holds a pixel.
+    fn box_in(&self, size: UVec2) -> Option<[DVec2; 2]> {
+        let [a, b] = self.corners?.map(|corner| corner.0);
+        let limit = size.as_dvec2();
+        let [low, high] = [a.min(b), a.max(b)].map(|corner| corner.clamp(DVec2::ZERO, limit));
+        (a.is_finite() && b.is_finite() && (high - low).min_element() >= 1.0).then_some([low, high])
+    }
+
+    /// The block of the picture to look at.
+    pub(super) fn rect(&self, size: UVec2) -> Result<PixelRect, OutlineError> {
+        if let Some(mask) = self.earlier
+            && mask.size() != size
+        {
+            return Err(OutlineError::WrongSize { mask: mask.size(), picture: size });
+        }
+        let whole = PixelRect { min: UVec2::ZERO, max: size };
+        if let Some([low, high]) = self.box_in(size) {
+            let margin = ((high - low) * MARGIN).max(DVec2::splat(LEAST_MARGIN));
+            let min = (low - margin).floor().max(DVec2::ZERO).as_uvec2();
+            return Ok(PixelRect { min, max: (high + margin).ceil().min(size.as_dvec2()).as_uvec2() });
+        }
+        if let Some(bounds) = self.earlier.and_then(Mask::bounds) {
+            let margin = (bounds.size() / 4).max(UVec2::splat(LEAST_MARGIN as u32));
+            let mut rect =
+                PixelRect { min: bounds.min.saturating_sub(margin), max: (bounds.max + margin).min(size) };
+            // What is stroked now lies beyond the mask when it had missed something.
+            for point in
+                self.strokes.iter().flat_map(|stroke| &stroke.points).filter(|point| point.0.is_finite())
+            {
+                let pixel = point.0.clamp(DVec2::ZERO, size.as_dvec2() - 1.0).as_uvec2();
+                rect.min = rect.min.min(pixel.saturating_sub(margin));
+                rect.max = rect.max.max((pixel + margin).min(size));
+            }
+            return Ok(rect);
+        }
+        let is_marked =
+            self.strokes.iter().any(|stroke| stroke.side == Side::Inside && !stroke.points.is_empty());
+        if !is_marked {
+            return Err(OutlineError::NothingMarked);
+        }
+        // Strokes beside the object enclose it; without one it may be anywhere.
+        if self.strokes.iter().any(|stroke| stroke.side == Side::Outside) {
+            let points =
+                self.strokes.iter().flat_map(|stroke| &stroke.points).filter(|point| point.0.is_finite());
+            let corners = points.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[low, high], point| {
+                [low.min(point.0), high.max(point.0)]
+            });
+            let hints = ObjectHints { corners: Some(corners.map(PicturePoint)), ..*self };
+            if hints.box_in(size).is_some() {
+                return hints.rect(size);
+            }
+        }
+        Ok(whole)
+    }
+
+    /// What is certain of each cell.
+    pub(super) fn known(&self, size: UVec2, scaled: &Scaled) -> Vec<Option<bool>> {
+        let mut known = vec![None; scaled.colors.len()];
+        if let Some([low, high]) = self.box_in(size) {
+            for (cell, known) in known.iter_mut().enumerate() {
+                let center = scaled.pixel(cell).as_dvec2() + 0.5;
+                if !(center.cmpge(low) & center.cmple(high)).all() {
+                    *known = Some(false);
+                }
+            }
+        }
+        for stroke in self.strokes {
+            for_each_near(size, &stroke.points, stroke.reach(), |x, y, _| {
+                if let Some(cell) = scaled.cell(x, y) {
+                    known[cell] = Some(stroke.side == Side::Inside);
+                }
+            });
+        }
+        known
+    }
+
+    /// First guesses for each cell, the likeliest first; `None` for cells of which nothing is guessed.
+    pub(super) fn first_labels(
+        &self,
+        size: UVec2,
+        scaled: &Scaled,
+        known: &[Option<bool>],
+    ) -> Vec<Vec<Option<bool>>> {
+        let with = |guess: &dyn Fn(usize) -> Option<bool>| {
+            known.iter().enumerate().map(|(cell, known)| known.or_else(|| guess(cell))).collect()
+        };
+        if let Some(mask) = self.earlier {
+            let is_in = |pixel: UVec2| mask.get(pixel.x, pixel.y) >= 128;
+            return vec![with(&|cell| Some(is_in(scaled.pixel(cell))))];
+        }
+        if self.box_in(size).is_some() {
+            let strange = strange(&scaled.colors, known).map(|strange| with(&|cell| Some(strange[cell])));
+            return strange.into_iter().chain([with(&|_| Some(true))]).collect();
+        }
+        // Strokes on both sides speak for themselves; without one beside the object, all the rest is beside it.
+        let is_outside_known = known.contains(&Some(false));
+        vec![with(&|_| (!is_outside_known).then_some(false))]
+    }
+}
+
+/// Which cells do not look like what is certainly outside; `None` when nothing is.
+fn strange(colors: &[Vec3], known: &[Option<bool>]) -> Option<Vec<bool>> {
+    let outer = Mixture::clustered(colors, SEED, |cell| known[cell] == Some(false))?;
+    let costs: Vec<f32> = colors.par_iter().map(|color| outer.cheapest(*color).1).collect();
+    let certain = known.iter().zip(&costs).filter(|(known, _)| **known == Some(false));
+    let mut certain: Vec<f32> = certain.map(|(_, cost)| *cost).collect();
+    certain.sort_unstable_by(f32::total_cmp);
+    let limit = certain[((certain.len() - 1) as f64 * USUAL) as usize];
+    Some(costs.iter().map(|cost| *cost > limit).collect())
+}
