@@ -44,6 +44,9 @@ pub mod plugin;
 #[cfg(all(feature = "plugin", not(target_arch = "wasm32")))]
 pub mod headless;
 
+#[cfg(all(feature = "editor", not(target_arch = "wasm32")))]
+pub mod editor;
+
 /// What most games need.
 #[cfg(feature = "plugin")]
 pub mod prelude {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{DVec2, UVec2};
 
+use crate::picture::DecodedPicture;
 use crate::picture::Lens;
 use crate::picture::Mask;
 use crate::picture::Picture;
@@ -75,6 +76,25 @@ impl TourSource {
         let decoded = decode_picture(&bytes, file.as_str())
             .map_err(|error| from_picture_error("picture.file", file.as_str(), &error))?;
         let size = decoded.picture.size();
+        Self::of(tour, decoded, &|place, file| {
+            let bytes = load(place, file)?;
+            decode_mask(&bytes, file.as_str(), size)
+                .map_err(|error| Box::new(from_picture_error(place, file.as_str(), &error)))
+        })
+    }
+
+    /// The same of a picture and masks that are in memory; `mask` gets the place in the document and the mask's path.
+    ///
+    /// # Errors
+    ///
+    /// As [`read`](Self::read), and what `mask` says.
+    pub fn of(
+        tour: &Tour,
+        decoded: DecodedPicture,
+        mask: &dyn Fn(&str, &RelativePath) -> Result<Mask, Box<Problem>>,
+    ) -> Result<Self, Problems> {
+        let file = &tour.picture.file;
+        let size = decoded.picture.size();
         tour.check_size(size)?;
 
         if u64::from(size.x) * u64::from(size.y) > MOST_PIXELS {
@@ -96,10 +116,7 @@ impl TourSource {
         let mut problems = Vec::new();
         let mut region = |place: &str, whole: &Region, used: &Region| match (whole, used) {
             (Region::Mask(file), _) => {
-                let mask = load(place, file).and_then(|bytes| {
-                    decode_mask(&bytes, file.as_str(), size)
-                        .map_err(|error| Box::new(from_picture_error(place, file.as_str(), &error)))
-                });
+                let mask = mask(place, file);
                 mask.map(|mask| cropped(&mask, rect)).map_err(|problem| problems.push(*problem)).ok()
             }
             (_, Region::Polygon(corners)) => Mask::from_polygon(rect.size(), corners)

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules of `src/`, lowest first.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 17] = [
     "picture", "camera", "tour", "solve", "suggest", "depth", "scene", "maps", "assemble", "bake", "wind",
-    "water", "motion", "trace", "plugin", "headless",
+    "water", "motion", "trace", "plugin", "headless", "editor",
 ];
 
 /// Every file below `folder` with this ending, in order.

@@ -35,6 +35,11 @@ pub(crate) enum Command {
         /// The tour to open; the demo if left out
         tour: Option<PathBuf>,
     },
+    /// Mark a picture and fly into it while you do: the studio
+    Edit {
+        /// The picture or tour to open
+        file: Option<PathBuf>,
+    },
     /// Write views or a film of the tour, as PNG frames or through ffmpeg, without a window
     Render(RenderArguments),
     /// Tell what is wrong with a tour, and how well its picture is solved

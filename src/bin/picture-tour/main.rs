@@ -10,6 +10,7 @@ mod beside;
 mod check;
 mod demo;
 mod depth;
+mod edit;
 mod failure;
 mod film;
 mod frames;
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
     let done = match arguments.command {
         None => play::run(arguments.tour),
         Some(Command::Play { tour }) => play::run(tour),
+        Some(Command::Edit { file }) => edit::run(file),
         Some(Command::Render(arguments)) => render::run(&arguments),
         Some(Command::Check { tour, json, sheet, depth }) => {
             check::run(tour.as_deref(), json, &check::Drawings { sheet, depth })

@@ -3,7 +3,7 @@
 /// Whether a window can be opened; where X is spoken, whether its server answers.
 ///
 /// The window library panics when there is none, so it is asked for beforehand.
-pub(super) fn exists() -> bool {
+pub(crate) fn exists() -> bool {
     let is_x = cfg!(all(unix, not(any(target_os = "macos", target_os = "android", target_os = "ios"))));
     !is_x || std::env::var("DISPLAY").is_ok_and(|display| answers(&display))
 }

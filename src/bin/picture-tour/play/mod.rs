@@ -1,6 +1,6 @@
 //! `play`: a window to fly in. Without a display or a graphics adapter the path is rendered to files instead.
 
-mod display;
+pub(crate) mod display;
 mod flight;
 mod overlay;
 mod tours;

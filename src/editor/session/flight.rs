@@ -1,0 +1,161 @@
+//! The live tour beside the picture: it is built from the draft, flown, and shows motion and path.
+
+use std::sync::Arc;
+
+use bevy::camera::RenderTarget;
+use bevy::prelude::*;
+
+use super::Session;
+use crate::assemble::TourSource;
+use crate::camera::{CameraPose, Fit};
+use crate::editor::Request;
+use crate::maps::MapOptions;
+use crate::plugin::{
+    Guide, ObjectMotion, PictureTour, TourAsset, TourCamera, TourCameraState, TourMotion, TourPart,
+    TourWeather,
+};
+use crate::tour::edit::Edit;
+use crate::tour::{CameraPath, Tour};
+
+/// The tour that the studio shows.
+#[derive(Component, Debug)]
+pub(super) struct Shown;
+
+/// The camera that flies there.
+#[derive(Component, Debug)]
+pub(super) struct Flying;
+
+/// What flies.
+#[derive(bevy::ecs::system::SystemParam)]
+pub(super) struct Flight<'w, 's> {
+    commands: Commands<'w, 's>,
+    assets: ResMut<'w, Assets<TourAsset>>,
+    cameras: Query<'w, 's, (Entity, &'static mut TourCamera, &'static mut TourCameraState), With<Flying>>,
+    tours: Query<'w, 's, (Entity, &'static PictureTour), With<Shown>>,
+    motions: Query<'w, 's, (&'static mut TourMotion, &'static mut TourWeather), With<Shown>>,
+    parts: Query<'w, 's, (&'static Name, &'static mut ObjectMotion, &'static ChildOf), With<TourPart>>,
+}
+
+impl Flight<'_, '_> {
+    /// Shows a tour in place of what is shown; the camera stays where it is.
+    pub(super) fn show(&mut self, source: Arc<TourSource>) {
+        let asset = TourAsset::Source(source, MapOptions::PREVIEW);
+        if let Some((_, shown)) = self.tours.iter().next() {
+            // It was made here, so the handle is its own.
+            let _ = self.assets.insert(&shown.0, asset);
+        } else {
+            let handle = self.assets.add(asset);
+            self.commands.spawn((PictureTour(handle), Shown));
+        }
+    }
+
+    /// Shows no tour.
+    pub(super) fn hide(&mut self) {
+        for (entity, _) in &self.tours {
+            self.commands.entity(entity).try_despawn();
+        }
+    }
+
+    /// Draws into an image from now on.
+    pub(super) fn draw_into(&mut self, image: Handle<Image>) {
+        let target = RenderTarget::from(image);
+        match self.cameras.iter().next() {
+            Some((camera, ..)) => {
+                self.commands.entity(camera).insert(target);
+            }
+            None => {
+                let looks = TourCamera { fit: Fit::Contain, listens: false, ..default() };
+                let background =
+                    Camera { order: -1, clear_color: Color::srgb_u8(20, 22, 26).into(), ..default() };
+                self.commands.spawn((looks, background, target, Flying));
+            }
+        }
+    }
+
+    /// Lets the camera listen or not.
+    pub(super) fn listen(&mut self, listens: bool) {
+        for (_, mut camera, _) in &mut self.cameras {
+            if camera.listens != listens {
+                camera.listens = listens;
+            }
+            // Whoever takes the camera flies on from where it stands.
+            if listens && camera.guide == Guide::Still {
+                camera.guide = Guide::Visitor;
+            }
+        }
+    }
+
+    /// Where the camera is.
+    pub(super) fn flown(&self) -> Option<CameraPose> {
+        self.cameras.iter().find_map(|(_, _, state)| state.pose)
+    }
+
+    /// Seconds along the path, while that is played.
+    pub(super) fn playing(&self) -> Option<f64> {
+        let (_, camera, state) = self.cameras.iter().next()?;
+        (camera.guide == Guide::Path).then_some(state.path_seconds)
+    }
+
+    /// Does what was asked of camera and motion.
+    pub(super) fn carry_out(&mut self, request: &Request, path: Option<&CameraPath>) {
+        let way = || path.and_then(CameraPath::way);
+        match request {
+            Request::FlyHome => {
+                for (_, mut camera, mut state) in &mut self.cameras {
+                    camera.guide = Guide::Visitor;
+                    state.go_home();
+                }
+            }
+            Request::FlyTo(index) => {
+                let pose = path.and_then(|path| path.keyframes.get(*index)).map(crate::tour::Keyframe::pose);
+                self.stand_at(pose);
+            }
+            Request::ShowPathAt(seconds) => self.stand_at(way().map(|way| way.at(*seconds))),
+            Request::PlayPath(plays) => {
+                for (_, mut camera, mut state) in &mut self.cameras {
+                    camera.guide = if *plays { Guide::Path } else { Guide::Still };
+                    if *plays && !path.is_some_and(|path| path.looped) {
+                        state.path_seconds = 0.0;
+                    }
+                }
+            }
+            Request::SetMotionPreview(moves) => {
+                for (mut motion, _) in &mut self.motions {
+                    motion.still = !moves;
+                }
+            }
+            // Wind and motions act at once; all else waits for the tour to be built anew.
+            Request::Edit(Edit::Wind(wind)) => {
+                for (_, mut weather) in &mut self.motions {
+                    weather.wind = *wind;
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Lets objects move as the draft says, without building anything anew.
+    pub(super) fn move_objects(&mut self, tour: &Tour) {
+        for (name, mut motion, child) in &mut self.parts {
+            let object = tour.objects.iter().find(|object| object.name == name.as_str());
+            if let Some(object) = object.filter(|_| self.tours.contains(child.parent())) {
+                motion.set_if_neq(ObjectMotion::Own(object.motion.clone()));
+            }
+        }
+    }
+
+    fn stand_at(&mut self, pose: Option<CameraPose>) {
+        let Some(pose) = pose else { return };
+        for (_, mut camera, mut state) in &mut self.cameras {
+            camera.guide = Guide::Still;
+            state.pose = Some(pose);
+        }
+    }
+}
+
+impl Session {
+    /// The path that the draft has.
+    pub(super) fn path(&self) -> Option<CameraPath> {
+        self.desk.as_ref()?.tour().path.clone()
+    }
+}
