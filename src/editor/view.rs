@@ -23,7 +23,7 @@ pub struct View<'a> {
     pub desk: Option<DeskView<'a>>,
     /// The picture, once it is decoded.
     pub picture: Option<PictureView>,
-    /// Textures of the masks that the draft names: white where coverage is, alpha as coverage.
+    /// Textures of the masks that the draft names: white where coverage is, multiplied by it, alpha as coverage.
     pub masks: &'a [MaskView<'a>],
     /// The live tour.
     pub tour: TourView,

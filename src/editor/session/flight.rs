@@ -11,8 +11,8 @@ use crate::camera::{CameraPose, Fit};
 use crate::editor::Request;
 use crate::maps::MapOptions;
 use crate::plugin::{
-    Guide, ObjectMotion, PictureTour, TourAsset, TourCamera, TourCameraState, TourMotion, TourPart,
-    TourWeather,
+    Guide, ObjectMotion, PictureTour, SolvedTour, TourAsset, TourCamera, TourCameraState, TourMotion,
+    TourPart, TourWeather,
 };
 use crate::tour::edit::Edit;
 use crate::tour::{CameraPath, Tour};
@@ -25,12 +25,25 @@ pub(super) struct Shown;
 #[derive(Component, Debug)]
 pub(super) struct Flying;
 
+/// Frames that are drawn after the last change: new textures and pipelines take some to arrive.
+const FRAMES_AFTER: u32 = 12;
+
+/// What the tour's image shows.
+#[derive(Debug, Default)]
+pub(super) struct Drawn {
+    pose: Option<CameraPose>,
+    frames_left: u32,
+}
+
 /// What flies.
 #[derive(bevy::ecs::system::SystemParam)]
 pub(super) struct Flight<'w, 's> {
     commands: Commands<'w, 's>,
     assets: ResMut<'w, Assets<TourAsset>>,
     cameras: Query<'w, 's, (Entity, &'static mut TourCamera, &'static mut TourCameraState), With<Flying>>,
+    lenses: Query<'w, 's, &'static mut Camera, With<Flying>>,
+    built: Query<'w, 's, (), (With<Shown>, Changed<SolvedTour>)>,
+    drawn: Local<'s, Drawn>,
     tours: Query<'w, 's, (Entity, &'static PictureTour), With<Shown>>,
     motions: Query<'w, 's, (&'static mut TourMotion, &'static mut TourWeather), With<Shown>>,
     parts: Query<'w, 's, (&'static Name, &'static mut ObjectMotion, &'static ChildOf), With<TourPart>>,
@@ -68,6 +81,22 @@ impl Flight<'_, '_> {
                 let background =
                     Camera { order: -1, clear_color: Color::srgb_u8(20, 22, 26).into(), ..default() };
                 self.commands.spawn((looks, background, target, Flying));
+            }
+        }
+    }
+
+    /// Draws the tour while it changes, and no longer: a picture that rests costs nothing.
+    pub(super) fn draw_while(&mut self, is_busy: bool) {
+        let pose = self.flown();
+        let moves = self.motions.iter().any(|(motion, _)| !motion.still && !motion.simulation().is_still());
+        if is_busy || moves || pose != self.drawn.pose || !self.built.is_empty() {
+            (self.drawn.pose, self.drawn.frames_left) = (pose, FRAMES_AFTER);
+        }
+        let draws = self.drawn.frames_left > 0;
+        self.drawn.frames_left = self.drawn.frames_left.saturating_sub(1);
+        for mut lens in &mut self.lenses {
+            if lens.is_active != draws {
+                lens.is_active = draws;
             }
         }
     }

@@ -18,7 +18,7 @@ use crate::tour::edit::{Edit, MaskPatch, PackedMask, RegionAt};
 use crate::tour::{Motion, Region, RelativePath};
 
 /// How far a traced way may be simplified, picture pixels.
-const TRACE_TOLERANCE: f64 = 0.7;
+const TRACE_TOLERANCE: f64 = 1.5;
 
 /// The way along edges that is being traced.
 #[derive(Debug, Default)]

@@ -260,7 +260,9 @@ fn show(
     studio_ui(&mut root, &mut studio, &mut view);
     let out = std::mem::take(&mut view.out);
     session.studio = studio;
-    if let Some(image) = textures.tour_of(out.wanted_tour_size, &mut images, &mut contexts) {
+    let target = textures.tour_of(out.wanted_tour_size, &mut images, &mut contexts);
+    flight.draw_while(target.is_some() || out.pointer_over_tour || !out.requests.is_empty());
+    if let Some(image) = target {
         flight.draw_into(image);
     }
     let is_busy = session.question.is_some() || session.dialog.is_some();

@@ -58,7 +58,8 @@ impl Textures {
             masks.push(match old {
                 Some(old) if Arc::ptr_eq(&old.1, mask) => old,
                 old => {
-                    let image = scaled_image(mask.size(), |at| [255, 255, 255, mask.get(at.x, at.y)]);
+                    // White; egui blends colors that are multiplied by their coverage.
+                    let image = scaled_image(mask.size(), |at| [mask.get(at.x, at.y); 4]);
                     let (id, handle) = match old {
                         Some((.., id, handle)) => (id, handle),
                         None => {
