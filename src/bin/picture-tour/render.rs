@@ -66,12 +66,11 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         bar.set_message(frame.file.clone());
         let camera = PinholeCamera { intrinsics, pose: frame.pose.unwrap_or(taken_by.pose) };
         let picture = renderer.render(&camera, frame.seconds)?;
-        match &mut film {
-            Some(film) => film.add(&picture)?,
-            None => {
-                save_png(&arguments.out.join(&frame.file), picture.size(), PngPixels::Rgb(picture.pixels()))
-                    .map_err(|error| Failure::CannotRun(error.to_string()))?
-            }
+        if let Some(film) = &mut film {
+            film.add(&picture)?;
+        } else {
+            save_png(&arguments.out.join(&frame.file), picture.size(), PngPixels::Rgb(picture.pixels()))
+                .map_err(|error| Failure::CannotRun(error.to_string()))?;
         }
         bar.inc(1);
     }

@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# The studio as a person uses it: the real program on a virtual screen, real pointer and keys. From a picture to a saved tour
+# with a boat in it, which is checked and rendered. Screenshots of every step stay in the folder that is named, or a new one.
+#
+#   bash tests/studio.sh [FOLDER]
+#
+# Needs Xvfb, xdotool and ImageMagick (Debian: xvfb xdotool imagemagick) and the program built with --features app.
+set -euo pipefail
+root=$(cd "$(dirname "$0")/.." && pwd)
+program=${PICTURE_TOUR:-${CARGO_TARGET_DIR:-$root/target}/release/picture-tour}
+out=$(realpath -m "${1:-$(mktemp -d)}")
+work=$(mktemp -d)
+export DISPLAY=:93 HOME=$work/home XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-/tmp}
+mkdir -p "$out" "$HOME"
+
+fail() { echo "studio: $1 (see $out)" >&2; exit 1; }
+shot() { import -window root "$out/$1.png"; }
+# Frames on a software GPU take a moment: whatever is pressed stays down for one.
+press() { xdotool keydown "$@" sleep 0.4 keyup "$@" sleep 0.6; }
+control() { xdotool keydown ctrl sleep 0.4 key "$1" sleep 0.4 keyup ctrl sleep 0.6; }
+click() { xdotool mousemove "$1" "$2" sleep 0.6 mousedown 1 sleep 0.4 mouseup 1 sleep 0.8; }
+drag() {
+    xdotool mousemove "$1" "$2" sleep 0.6 mousedown 1 sleep 0.4 mousemove $((($1 + $3) / 2)) $((($2 + $4) / 2)) \
+        sleep 0.6 mousemove "$3" "$4" sleep 0.6 mouseup 1 sleep 0.6
+}
+await() { # seconds, what, command
+    local left=$1 what=$2
+    shift 2
+    until "$@"; do
+        left=$((left - 1))
+        [ "$left" -gt 0 ] || { shot failed; fail "waited in vain for $what"; }
+        sleep 1
+    done
+}
+
+Xvfb $DISPLAY -screen 0 1440x860x24 >/dev/null 2>&1 &
+screen=$!
+trap 'kill $studio $screen 2>/dev/null || true; rm -rf "$work"' EXIT
+cp "$root/tests/data/a1/input.png" "$work/pond.png"
+began=$SECONDS
+"$program" edit "$work/pond.png" >"$out/log" 2>&1 &
+studio=$!
+
+# The first draft is there once there is something to recover.
+await 90 "the first draft" test -f "$work/.pond.tour.ron.recovery"
+drafted=$((SECONDS - began))
+sleep 4
+xdotool search --sync --name "Picture tour" windowfocus
+shot 1_draft
+
+click 39 59 # the message was read
+press 4
+click 77 231 # draw a new object
+click 18 264 # without clinging to edges
+for corner in "528 492" "663 492" "663 538" "528 538"; do click $corner; done
+press Return
+shot 2_outline
+click 158 335 # find it in a box
+drag 522 466 668 542
+await 60 "the boat's mask" sh -c "sleep 3; test \"$work/.pond.tour.ron.recovery\" -nt \"$out/2_outline.png\""
+sleep 4
+shot 3_boat
+drag 1200 480 1080 490 # look to the right in the tour
+shot 4_flight
+press 5
+shot 5_report
+control s
+await 20 "the saved tour" test -f "$work/pond.tour.ron"
+control q || true
+sleep 2
+
+# What was made: a sound tour, its horizon and pairs where the world has them, and a first view that is the picture.
+"$program" check "$work/pond.tour.ron" >"$out/check.txt" || fail "the tour has problems"
+pairs=$(grep -c ' yes$' "$out/check.txt") || true
+[ "$pairs" -ge 8 ] || fail "$pairs reflection pairs are used, 8 at least are expected"
+grep -q '"object 1"' "$work/pond.tour.ron" || fail "the boat is not in the tour"
+"$program" render "$work/pond.tour.ron" --reference --still --out "$work/frames" >/dev/null
+off=$(compare -metric PAE "$work/pond.png" "$work/frames/first_view.png" null: 2>&1 | sed 's/.*(\(.*\))/\1/') || true
+awk -v off="$off" 'BEGIN { exit !(off * 255 <= 1.01) }' || fail "the first view differs from the picture by $off of white"
+covered=$(convert "$work"/masks/object*.png -format '%[fx:mean*w*h]' info:)
+# World A1's boat covers 5 894 px of 960 x 540; its rod and flag pole are thin.
+awk -v covered="$covered" 'BEGIN { exit !(covered > 4200 && covered < 7800) }' || fail "the boat's mask covers $covered px"
+echo "a draft after $drafted s; $pairs pairs; the boat covers $covered px; screenshots in $out"
