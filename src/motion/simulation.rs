@@ -164,9 +164,10 @@ impl Simulation {
     #[must_use]
     pub fn is_still(&self) -> bool {
         let wind = self.wind();
-        let recorded = self.weather.target().waves > 0.0 || self.weather.at(self.seconds()).waves > 0.0;
-        let waves = recorded && self.sea.as_ref().is_some_and(|sea| sea.gain(0.0) > 0.0);
-        let calm = wind.speed == 0.0 && self.weather.target().wind.speed == 0.0 && !waves;
+        let [now, to_come] = [self.weather.at(self.seconds()), self.weather.target()];
+        // A recorded sea runs in still air.
+        let runs = self.sea.as_ref().is_some_and(|sea| now.waves.max(to_come.waves) * sea.gain(0.0) > 0.0);
+        let calm = wind.speed == 0.0 && to_come.wind.speed == 0.0 && !runs;
         let at_rest = self.ripples().is_none_or(Ripples::is_still) && self.movers.are_at_rest();
         calm && at_rest && self.drift(&wind).speed == 0.0
     }

@@ -6,7 +6,6 @@ use std::io::Cursor;
 use std::ops::RangeInclusive;
 
 use exr::error::Error as ExrError;
-use exr::image::FlatSamples;
 use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers};
 use glam::UVec2;
@@ -121,7 +120,7 @@ fn decode_exr(
     let only = if let [only] = channels.as_slice() { Some(only) } else { None };
     let found = only.or_else(|| named("Y")).or_else(|| named("R"));
     let samples = &found.ok_or_else(|| which_channel(name, channels.len()))?.sample_data;
-    let values = floats(samples);
+    let values: Vec<f32> = samples.values_as_f32().collect();
     if values.len() != size.x as usize * size.y as usize {
         return Err(damaged("its channel has another size than its layer".to_owned()));
     }
@@ -130,10 +129,6 @@ fn decode_exr(
         return Err(damaged(format!("the pixel in column {column}, row {row} is {}", values[index])));
     }
     Ok(HeightField { size, values, samples: HeightSamples::Float })
-}
-
-fn floats(samples: &FlatSamples) -> Vec<f32> {
-    samples.values_as_f32().collect()
 }
 
 fn which_channel(name: &str, count: usize) -> PictureError {
