@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::path::Path;
 
 use bevy_picture_tour::assemble::{TourSource, place};
-use bevy_picture_tour::motion::Simulation;
+use bevy_picture_tour::motion::{Recordings, Simulation};
 use bevy_picture_tour::scene;
 use bevy_picture_tour::tour::{Motion, Sea, Tour, TourFile};
 use criterion::Criterion;
@@ -34,7 +34,7 @@ fn simulation(trees: usize, change: impl FnOnce(&mut TourFile)) -> Simulation {
     }
     change(&mut file);
     let (scene, _) = scene::build(&plan);
-    Simulation::new(&Tour::check(file).unwrap(), &scene).0
+    Simulation::new(&Tour::check(file).unwrap(), &scene, &Recordings::default()).0
 }
 
 fn main() {

@@ -2,7 +2,7 @@
 //!
 //! In a game: [`prelude`], [`plugin`]. Without a window: `headless`. The method itself, without Bevy, in the
 //! order of its data: [`tour`] (the document) → [`solve`] (the camera), [`suggest`] (what the machine proposes) → [`depth`] (distances from the mirror image) →
-//! [`scene`] (planes in meters) → [`maps`] (what is on them), all run by [`assemble`], kept by [`bake`] → [`wind`] and
+//! [`scene`] (planes in meters) → [`maps`] (what is on them), all run by [`assemble`], kept by [`bake`]; [`wind`] and
 //! [`water`], joined by [`motion`] (what moves) → [`trace`] (the reference image).
 //! [`picture`] and [`camera`] stand below them all.
 //!
@@ -26,15 +26,15 @@ pub mod scene;
 
 pub mod maps;
 
-pub mod assemble;
-
-pub mod bake;
-
 pub mod wind;
 
 pub mod water;
 
 pub mod motion;
+
+pub mod assemble;
+
+pub mod bake;
 
 pub mod trace;
 

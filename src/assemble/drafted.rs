@@ -3,6 +3,7 @@
 
 use super::{BandError, CutOptions, TourSource, cut_bands};
 use crate::depth::{DepthBand, DepthError};
+use crate::motion::Recordings;
 use crate::picture::{Lens, Mask, Picture};
 use crate::suggest::{Advice, DraftError, Part, Reflection, Remark, draft};
 use crate::tour::{Region, RelativePath, Tour};
@@ -101,6 +102,7 @@ impl DraftedTour {
             objects: Vec::new(),
             bands: Vec::new(),
             sky: mask(self.tour.sky.as_ref().and_then(|sky| sky.region.as_ref())),
+            recordings: Recordings::default(),
             notes: Vec::new(),
             tour: self.tour.clone(),
         }

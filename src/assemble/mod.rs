@@ -20,6 +20,7 @@ use crate::maps::Edge;
 use crate::maps::MapOptions;
 use crate::maps::Maps;
 use crate::maps::TourMasks;
+use crate::motion::Recordings;
 use crate::picture::Mask;
 use crate::scene::BillboardPlan;
 use crate::scene::Role;
@@ -41,6 +42,9 @@ pub struct AssembledTour {
     pub scene: TourScene,
     /// Their maps.
     pub maps: Maps,
+    /// Frames and poses that drive water and bodies. A baked tour does not hold them; it has them when it was read beside
+    /// its document.
+    pub recordings: Recordings,
     /// What had to be moved or guessed, in words.
     pub remarks: Vec<String>,
 }
@@ -158,7 +162,8 @@ pub fn assemble(
     })
     .ok_or(AssembleError::Cancelled)?;
     let PlacedTour { solution, plan, scene, remarks, .. } = placed;
-    Ok(AssembledTour { solution, plan, scene, maps, remarks })
+    let recordings = source.recordings.clone();
+    Ok(AssembledTour { solution, plan, scene, maps, recordings, remarks })
 }
 
 /// What the scene is built from, but for the ground's banks.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{DVec2, UVec2};
 
+use crate::motion::Recordings;
 use crate::picture::DecodedPicture;
 use crate::picture::Lens;
 use crate::picture::Mask;
@@ -46,6 +47,8 @@ pub struct TourSource {
     pub bands: Vec<Option<Mask>>,
     /// The visible sky, if it has a region.
     pub sky: Option<Mask>,
+    /// Frames and poses that drive water and bodies.
+    pub recordings: Recordings,
     /// What was put right while reading (a broken color profile, say).
     pub notes: Vec<String>,
 }
@@ -56,8 +59,39 @@ impl TourSource {
     /// # Errors
     ///
     /// All problems at once: files that cannot be read or decoded, masks of another size or without any coverage, a
-    /// picture of another shape than the tour says, reflections on dry land.
+    /// picture of another shape than the tour says, reflections on dry land, recordings that cannot be used.
     pub fn read(
+        tour: &Tour,
+        read: &dyn Fn(&RelativePath) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, Problems> {
+        Self::with_recordings(tour, Recordings::read(tour, read), read)
+    }
+
+    /// The same with recordings that were read before; `read` is asked for the [other files](Tour::map_files) only.
+    ///
+    /// # Errors
+    ///
+    /// As [`read`](Self::read), the recordings' problems last.
+    pub fn with_recordings(
+        tour: &Tour,
+        recordings: Result<Recordings, Problems>,
+        read: &dyn Fn(&RelativePath) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, Problems> {
+        match (Self::read_maps(tour, read), recordings) {
+            (Ok(mut source), Ok(recordings)) => {
+                source.notes.extend(recordings.notes.iter().cloned());
+                Ok(Self { recordings, ..source })
+            }
+            (Err(problems), Ok(_)) | (Ok(_), Err(problems)) => Err(problems),
+            (Err(Problems(mut problems)), Err(more)) => {
+                problems.extend(more.0);
+                Err(Problems(problems))
+            }
+        }
+    }
+
+    /// The same without recordings.
+    fn read_maps(
         tour: &Tour,
         read: &dyn Fn(&RelativePath) -> Result<Vec<u8>, String>,
     ) -> Result<Self, Problems> {
@@ -83,7 +117,7 @@ impl TourSource {
         })
     }
 
-    /// The same of a picture and masks that are in memory; `mask` gets the place in the document and the mask's path.
+    /// The same of a picture and masks that are in memory, without recordings; `mask` gets the place in the document and the mask's path.
     ///
     /// # Errors
     ///
@@ -192,6 +226,7 @@ impl TourSource {
             objects: objects.into_iter().flatten().collect(),
             bands,
             sky,
+            recordings: Recordings::default(),
             notes: decoded.notes,
         })
     }
@@ -206,7 +241,7 @@ impl TourSource {
     }
 }
 
-/// A tour file of the file system, read and checked; its picture and masks are not read yet.
+/// A tour file of the file system, read and checked; its picture, masks and recordings are not read yet.
 #[derive(Clone, Debug)]
 pub struct TourOnDisk {
     /// The tour as its file says it.
@@ -248,14 +283,26 @@ impl TourOnDisk {
         read_inside(&self.folder, &path).map_err(|error| format!("{}: {error}", path.display()))
     }
 
-    /// The tour with its picture and masks.
+    /// The tour with its picture, masks and recordings.
     ///
     /// # Errors
     ///
     /// All problems of its files; each names the tour's file.
     pub fn source(&self) -> Result<TourSource, Problems> {
-        TourSource::read(&self.tour, &|file| self.read(file))
-            .map_err(|problems| problems.located_in(&self.text).with_file(&self.name))
+        TourSource::read(&self.tour, &|file| self.read(file)).map_err(|problems| self.placed(problems))
+    }
+
+    /// Its recordings alone, for a tour whose maps are baked.
+    ///
+    /// # Errors
+    ///
+    /// All problems of their files; each names the tour's file.
+    pub fn recordings(&self) -> Result<Recordings, Problems> {
+        Recordings::read(&self.tour, &|file| self.read(file)).map_err(|problems| self.placed(problems))
+    }
+
+    fn placed(&self, problems: Problems) -> Problems {
+        problems.located_in(&self.text).with_file(&self.name)
     }
 }
 

@@ -37,6 +37,7 @@ use glam::UVec2;
 
 use crate::assemble::AssembledTour;
 use crate::maps::MapOptions;
+use crate::motion::Recordings;
 use crate::tour::RelativePath;
 use crate::tour::Tour;
 
@@ -48,7 +49,7 @@ pub struct Baked {
     /// The tour in pixels of the part of the picture that is used, as a
     /// [`TourSource`](crate::assemble::TourSource) has it.
     pub tour: Tour,
-    /// What was baked: plan and maps to the bit; the solution is solved again.
+    /// What was baked: plan and maps to the bit; the solution is solved again. Without recordings.
     pub built: AssembledTour,
     /// Width and height of the used part of the picture, pixels.
     pub picture_size: UVec2,
@@ -63,6 +64,13 @@ impl Baked {
     pub fn with_tour(mut self, tour: &Tour) -> Self {
         self.tour = tour.in_pixels_of(self.uncropped_size);
         self.built.turn_as_marked(&self.tour);
+        self
+    }
+
+    /// The same tour with the recordings that its document names, which are not baked.
+    #[must_use]
+    pub fn with_recordings(mut self, recordings: Recordings) -> Self {
+        self.built.recordings = recordings;
         self
     }
 }

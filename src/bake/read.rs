@@ -13,6 +13,7 @@ use crate::maps::MIP_LEVELS;
 use crate::maps::Maps;
 use crate::maps::Mipmapped;
 use crate::maps::mip_size;
+use crate::motion::Recordings;
 use crate::scene;
 use crate::solve::solve;
 use crate::tour::Tour;
@@ -56,7 +57,14 @@ pub fn decode(bytes: &[u8]) -> Result<Baked, BakeError> {
     Ok(Baked {
         fingerprint,
         tour,
-        built: AssembledTour { solution, plan: header.plan, scene, maps, remarks: header.remarks },
+        built: AssembledTour {
+            solution,
+            plan: header.plan,
+            scene,
+            maps,
+            recordings: Recordings::default(),
+            remarks: header.remarks,
+        },
         picture_size: size,
         uncropped_size,
     })

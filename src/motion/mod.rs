@@ -9,6 +9,7 @@
 mod looped;
 mod movers;
 mod near_water;
+mod recordings;
 mod roles;
 mod simulation;
 mod stand;
@@ -17,6 +18,7 @@ mod tests;
 mod vessel;
 
 pub use looped::{LONGEST_LOOP, LoopError, SHORTEST_LOOP};
+pub use recordings::{Recordings, RecordingsReader};
 pub use simulation::{MEMORY_STEPS, Simulation};
 
 use crate::scene::Placement;

@@ -2,6 +2,7 @@
 
 use super::Moment;
 use super::Moves;
+use super::Recordings;
 use super::stand;
 use super::vessel::Vessel;
 use crate::scene::TourScene;
@@ -30,12 +31,12 @@ impl Movers {
     }
 
     /// Lets an object move this way from now on, whatever it did before; `wall` is that of its component. With a loop of so
-    /// many seconds its course takes whole rounds. The error says in words why it rests.
+    /// many seconds its course or its poses take whole rounds. The error says in words why it rests.
     pub(super) fn set(
         &mut self,
         (component, wall): (usize, &Wall),
         object: &Object,
-        (scene, wind): (&TourScene, &Wind),
+        (scene, wind, recordings): (&TourScene, &Wind, &Recordings),
         loop_seconds: Option<f64>,
     ) -> Result<(), String> {
         self.stop(component);
@@ -52,7 +53,16 @@ impl Movers {
                 let vessel = Vessel::sailing(component, object, course, scene, wall, loop_seconds);
                 self.vessels.push(vessel.map_err(|error| error.to_string())?);
             }
-            Motion::Recorded(_) => return Err("recorded poses are not drawn yet".to_owned()),
+            Motion::Recorded(recorded) => {
+                let poses = recordings.poses_of(recorded).ok_or_else(|| {
+                    format!(
+                        "its poses \"{}\" were not read; open the .tour.ron that names them",
+                        recorded.poses
+                    )
+                })?;
+                let vessel = Vessel::recorded(component, wall, poses, loop_seconds);
+                self.vessels.push(vessel.map_err(|error| error.to_string())?);
+            }
         }
         Ok(())
     }
@@ -85,14 +95,14 @@ impl Movers {
         !self.vessels.is_empty()
     }
 
-    /// Whether somebody moves without waves, too.
+    /// Whether somebody leaves a wake.
     pub(super) fn sail(&self) -> bool {
         self.vessels.iter().any(Vessel::sails)
     }
 
     /// Whether nobody moves unless wind or water does.
     pub(super) fn are_at_rest(&self) -> bool {
-        self.vessels.iter().all(|vessel| !vessel.sails() && vessel.is_at_rest())
+        self.vessels.iter().all(|vessel| vessel.stays() && vessel.is_at_rest())
     }
 
     /// Ends everybody's motion on the waves.

@@ -27,12 +27,12 @@ impl Simulation {
     /// Lets a component move as an object does.
     pub(super) fn cast(&mut self, component: usize, object: &Object) -> Result<(), String> {
         let Surface::Wall(wall) = self.scene.components[component].surface else { return Ok(()) };
-        let around = (&self.scene, &self.tour.wind);
+        let around = (&self.scene, &self.tour.wind, &self.recordings);
         self.movers.set((component, &wall), object, around, self.loop_seconds)
     }
 
     /// Lets an object move in another way from now on, whatever the tour's file says; waves that break at what is
-    /// [`Motion::Static`] stay those of the file.
+    /// [`Motion::Static`] stay those of the file, and poses must be among its recordings.
     ///
     /// # Errors
     ///

@@ -5,10 +5,11 @@ use glam::DVec2;
 use super::looped::{self, LoopError};
 use super::movers::Movers;
 use super::near_water::NearWater;
-use super::{Moment, Moves, STEP_SECONDS};
+use super::{Moment, Moves, Recordings, STEP_SECONDS};
 use crate::scene::Surface;
 use crate::scene::TourScene;
 use crate::tour::Drift;
+use crate::tour::RecordedSea;
 use crate::tour::Sea;
 use crate::tour::Tour;
 use crate::tour::Wind;
@@ -42,6 +43,7 @@ enum Clouds {
 pub struct Simulation {
     pub(super) tour: Tour,
     pub(super) scene: TourScene,
+    pub(super) recordings: Recordings,
     pub(super) loop_seconds: Option<f64>,
     /// The step at which water and bodies rested last.
     rested_at: u64,
@@ -58,27 +60,36 @@ pub struct Simulation {
 
 impl Simulation {
     /// A tour at its start. `tour` must be in pixels of the scene's picture, as
-    /// [`TourSource::tour`](crate::assemble::TourSource::tour) is. The remarks say what does not move, and why.
+    /// [`TourSource::tour`](crate::assemble::TourSource::tour) is; `recordings` are those that it names. The remarks say what
+    /// does not move, and why.
     ///
     /// Clouds move in a tour with a sky: as it says, in any wind, or else with the wind. An open course is sailed to and fro.
     #[must_use]
-    pub fn new(tour: &Tour, scene: &TourScene) -> (Self, Vec<String>) {
-        let (simulation, resting, mut remarks) = Self::start(tour.clone(), scene.clone(), None);
+    pub fn new(tour: &Tour, scene: &TourScene, recordings: &Recordings) -> (Self, Vec<String>) {
+        let (simulation, resting, mut remarks) =
+            Self::start(tour.clone(), scene.clone(), recordings.clone(), None);
         let rests = |(name, reason): (String, String)| format!("\"{name}\" rests: {reason}");
         remarks.extend(resting.into_iter().map(rests));
         (simulation, remarks)
     }
 
     /// The same tour from its start, in its present weather, repeating after so many seconds. Periods become whole parts of
-    /// them and courses take whole rounds; what was [led](Self::lead) is not.
+    /// them and courses and recordings take whole rounds; what was [led](Self::lead) is not.
     ///
     /// # Errors
     ///
-    /// For loops under 8 s or over an hour, and where a course would have to be sailed at more than twice or less than half
-    /// its speed.
+    /// For loops under 8 s or over an hour, and where a course or a recording would have to run at more than twice or less
+    /// than half its speed, or poses do not start over.
     pub fn looped(&self, seconds: f64) -> Result<Self, LoopError> {
         let tour = looped::with_whole_periods(&self.tour, seconds)?;
-        let (mut simulation, resting, _) = Self::start(tour, self.scene.clone(), Some(seconds));
+        let (mut simulation, resting, _) =
+            Self::start(tour, self.scene.clone(), self.recordings.clone(), Some(seconds));
+        if let Some(sea) = &mut simulation.sea {
+            sea.fit_rounds(seconds).map_err(|error| {
+                let (name, reason) = ("sea".to_owned(), error.to_string());
+                LoopError::Mover { name, seconds, reason }
+            })?;
+        }
         let sails_here =
             |name: &str| self.object(name).is_some_and(|(index, ..)| self.movers.moves(index).returns);
         if let Some((name, reason)) = resting.into_iter().find(|(name, _)| sails_here(name)) {
@@ -94,13 +105,23 @@ impl Simulation {
     fn start(
         tour: Tour,
         scene: TourScene,
+        recordings: Recordings,
         loop_seconds: Option<f64>,
     ) -> (Self, Vec<(String, String)>, Vec<String>) {
         let mut remarks = Vec::new();
-        if let Sea::Recorded(_) = tour.waves.sea {
-            remarks.push("the sea rests: recorded seas are not drawn yet".to_owned());
-        }
-        let sea = scene.water.then(|| SeaSurface::new(&tour.waves.sea, &tour.wind)).flatten();
+        let sea = match &tour.waves.sea {
+            _ if !scene.water => None,
+            Sea::Recorded(RecordedSea { first, .. }) => {
+                let sea = recordings.sea.clone().and_then(SeaSurface::recorded);
+                if sea.is_none() {
+                    remarks.push(format!(
+                        "the sea rests: its frames \"{first}\" and so on were not read; open the .tour.ron that names them"
+                    ));
+                }
+                sea
+            }
+            sea => SeaSurface::new(sea, &tour.wind),
+        };
         let mut simulation = Self {
             loop_seconds,
             rested_at: 0,
@@ -123,6 +144,7 @@ impl Simulation {
             moment: Moment::still(scene.components.len()),
             tour,
             scene,
+            recordings,
         };
         let mut resting = Vec::new();
         for object in simulation.tour.objects.clone() {
@@ -142,7 +164,10 @@ impl Simulation {
     #[must_use]
     pub fn is_still(&self) -> bool {
         let wind = self.wind();
-        let calm = wind.speed == 0.0 && self.weather.target().wind.speed == 0.0;
+        let [now, to_come] = [self.weather.at(self.seconds()), self.weather.target()];
+        // A recorded sea runs in still air.
+        let runs = self.sea.as_ref().is_some_and(|sea| now.waves.max(to_come.waves) * sea.gain(0.0) > 0.0);
+        let calm = wind.speed == 0.0 && to_come.wind.speed == 0.0 && !runs;
         let at_rest = self.ripples().is_none_or(Ripples::is_still) && self.movers.are_at_rest();
         calm && at_rest && self.drift(&wind).speed == 0.0
     }

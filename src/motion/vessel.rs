@@ -2,7 +2,7 @@
 //!
 //! One at anchor and the water act on each other. One on a course presses its wake into the water and follows the waves,
 //! its own wake's too, but does not press as a floating one does: nothing then feeds waves that travel with it. One that is
-//! led, by a game, is where it is said to be; the water does not feel it.
+//! led, by a game or by another simulator's poses, is where it is said to be; the water does not feel it.
 
 use glam::{DVec2, DVec3};
 
@@ -13,6 +13,7 @@ use crate::scene::Wall;
 use crate::tour::Course;
 use crate::tour::Floating;
 use crate::tour::Object;
+use crate::water::RoundError;
 use crate::water::body::AtEnd;
 use crate::water::body::Berth;
 use crate::water::body::BodyPose;
@@ -20,6 +21,7 @@ use crate::water::body::CourseError;
 use crate::water::body::FloatingBody;
 use crate::water::body::Hull;
 use crate::water::body::PressurePatch;
+use crate::water::body::RecordedPoses;
 use crate::water::body::SailedCourse;
 use crate::water::body::Sailing;
 use crate::water::body::Wake;
@@ -51,6 +53,7 @@ pub(super) struct Vessel {
 enum Way {
     Anchored,
     Course(SailedCourse),
+    Recorded(RecordedPoses),
     Led(BodyPose),
 }
 
@@ -84,11 +87,21 @@ impl Vessel {
         Ok(Self::new(component, wall, Hull::of_course(course, length), Way::Course(sailed)))
     }
 
+    /// A body that is where its poses say, which are of the body itself: its billboard shows them as [`BodyPose::faced`].
+    /// Whole rounds of them fit a loop of so many seconds.
+    pub(super) fn recorded(
+        component: usize,
+        wall: &Wall,
+        poses: &RecordedPoses,
+        loop_seconds: Option<f64>,
+    ) -> Result<Self, RoundError> {
+        let poses = loop_seconds.map_or(Ok(poses.clone()), |seconds| poses.with_whole_rounds(seconds))?;
+        Ok(Self::new(component, wall, unused_hull(), Way::Recorded(poses)))
+    }
+
     /// A body that is where `pose` says.
     pub(super) fn led(component: usize, wall: &Wall, pose: BodyPose) -> Self {
-        // Its hull plays no part.
-        let hull = Hull::new(&Floating::of_draft(1.0), 1.0);
-        Self::new(component, wall, hull, Way::Led(pose))
+        Self::new(component, wall, unused_hull(), Way::Led(pose))
     }
 
     fn new(component: usize, wall: &Wall, hull: Hull, way: Way) -> Self {
@@ -97,9 +110,18 @@ impl Vessel {
         Self { component, wall: *wall, berth, wake: Wake::new(&hull), body: FloatingBody::new(hull), way }
     }
 
-    /// Whether it moves without waves, too.
+    /// Whether it sails, and leaves a wake.
     pub(super) fn sails(&self) -> bool {
         matches!(self.way, Way::Course(_))
+    }
+
+    /// Whether nothing moves it but waves.
+    pub(super) fn stays(&self) -> bool {
+        match &self.way {
+            Way::Anchored | Way::Led(_) => true,
+            Way::Course(_) => false,
+            Way::Recorded(poses) => poses.is_still(),
+        }
     }
 
     /// Whether it may be seen from its other side, as its mirrored copy.
@@ -141,6 +163,7 @@ impl Vessel {
     pub(super) fn pose(&self, seconds: f64) -> BodyPose {
         match &self.way {
             Way::Led(pose) => *pose,
+            Way::Recorded(poses) => poses.at(seconds).faced(),
             Way::Course(course) => course.at(seconds).pose_on_waves(&self.berth, &self.body.pose()),
             Way::Anchored => self.anchored_at().pose_on_waves(&self.berth, &self.body.pose()),
         }
@@ -157,12 +180,12 @@ impl Vessel {
         Some(Placement { origin, along: turned(resting.along), up: turned(resting.up) })
     }
 
-    /// Its way over the water at a time; `None` for one that is led.
+    /// Its way over the water at a time; `None` for one that the water does not feel.
     fn sailing_at(&self, seconds: f64) -> Option<Sailing> {
         match &self.way {
             Way::Anchored => Some(self.anchored_at()),
             Way::Course(course) => Some(course.at(seconds)),
-            Way::Led(_) => None,
+            Way::Recorded(_) | Way::Led(_) => None,
         }
     }
 
@@ -170,6 +193,11 @@ impl Vessel {
         let Berth { center, heading } = self.berth;
         Sailing { center: DVec2::new(center.x, center.z), heading, speed: 0.0 }
     }
+}
+
+/// The hull of a body that the water does not feel.
+fn unused_hull() -> Hull {
+    Hull::new(&Floating::of_draft(1.0), 1.0)
 }
 
 /// Meters from foot to foot along an object's wall; not a number where a foot is not on it.

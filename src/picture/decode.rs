@@ -94,15 +94,15 @@ pub fn decode_mask(bytes: &[u8], name: &str, expected: UVec2) -> Result<Mask, Pi
 }
 
 /// A file's pixels, upright but in its own colors.
-struct Loaded {
-    image: DynamicImage,
+pub(super) struct Loaded {
+    pub(super) image: DynamicImage,
     /// The embedded profile, or why it cannot be had.
     icc: Result<Option<Vec<u8>>, String>,
     /// The size before turning.
     stored_size: UVec2,
 }
 
-fn load(bytes: &[u8], name: &str) -> Result<Loaded, PictureError> {
+pub(super) fn load(bytes: &[u8], name: &str) -> Result<Loaded, PictureError> {
     let header =
         read_header(bytes).map_err(|found| PictureError::UnknownFormat { name: name.to_owned(), found })?;
     let fail = |error| refuse(name, header, &error);
@@ -233,8 +233,17 @@ fn over_white([r, g, b, alpha]: Rgba16) -> [u8; 3] {
 }
 
 /// Rec. 709 luma of codes, as an 8-bit code.
-fn luma([r, g, b, _]: Rgba16) -> u8 {
-    code8(((u32::from(r) * 2126 + u32::from(g) * 7152 + u32::from(b) * 722 + 5000) / 10_000) as u16)
+fn luma(pixel: Rgba16) -> u8 {
+    code8(luma16(pixel))
+}
+
+fn luma16([r, g, b, _]: Rgba16) -> u16 {
+    ((u32::from(r) * 2126 + u32::from(g) * 7152 + u32::from(b) * 722 + 5000) / 10_000) as u16
+}
+
+/// An image's luma, as 16-bit codes in rows.
+pub(super) fn gray16(image: &DynamicImage) -> Vec<u16> {
+    (0..image.height()).flat_map(|y| row16(image, y)).map(luma16).collect()
 }
 
 #[cfg(test)]

@@ -61,6 +61,20 @@ pub enum PictureError {
         /// Width and height, in pixels.
         size: UVec2,
     },
+    /// A height field with a side out of bounds.
+    #[error(
+        "{name} is {} x {} pixels; write height fields of {least} to {most} pixels a side", size.x, size.y
+    )]
+    SideRange {
+        /// The file.
+        name: String,
+        /// Width and height, in pixels.
+        size: UVec2,
+        /// The shortest side, in pixels.
+        least: u32,
+        /// The longest side, in pixels.
+        most: u32,
+    },
     /// A mask of another shape than its picture.
     #[error(
         "mask {name} is {} x {} pixels, but its picture is {} x {}; make the mask as large as the picture, or scale \

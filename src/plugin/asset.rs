@@ -14,6 +14,7 @@ use crate::assemble::AssembledTour;
 use crate::assemble::TourSource;
 use crate::bake::{self, BakeError, Baked};
 use crate::maps::MapOptions;
+use crate::motion::{Recordings, RecordingsReader};
 use crate::tour::Problem;
 use crate::tour::Problems;
 use crate::tour::RelativePath;
@@ -138,6 +139,7 @@ impl AssetLoader for TourLoader {
                 .map_err(|problem| Problems::from(problem).located_in(&text).with_file(&name))?;
             files.insert(file.as_str().to_owned(), read);
         }
+        let recordings = read_recordings(context, &tour).await;
         let baked = bake::baked_path(context.path().path());
         let baked_name = baked.display().to_string();
         let beside = AssetPath::from_path_buf(baked).with_source(context.path().source().clone_owned());
@@ -147,12 +149,12 @@ impl AssetLoader for TourLoader {
             Some(Err(error)) => Err(error.clone()),
             None => Err("it was not read".to_owned()),
         };
-        match baked.map(|bytes| bake::fresh(&bytes, &tour, settings, &lookup)) {
-            Some(Ok(baked)) => return Ok(baked.into()),
-            Some(Err(reason)) => warn!("{baked_name} is not used: {reason}"),
-            None => {}
+        match (baked.map(|bytes| bake::fresh(&bytes, &tour, settings, &lookup)), &recordings) {
+            (Some(Ok(baked)), Ok(recordings)) => return Ok(baked.with_recordings(recordings.clone()).into()),
+            (Some(Err(reason)), _) => warn!("{baked_name} is not used: {reason}"),
+            (Some(Ok(_)), Err(_)) | (None, _) => {}
         }
-        let source = TourSource::read(&tour, &lookup)
+        let source = TourSource::with_recordings(&tour, recordings, &lookup)
             .map_err(|problems| problems.located_in(&text).with_file(&name))?;
         Ok(TourAsset::Source(Arc::new(source), *settings))
     }
@@ -160,6 +162,16 @@ impl AssetLoader for TourLoader {
     fn extensions(&self) -> &[&str] {
         &["tour.ron"]
     }
+}
+
+/// Reads the recordings that a tour names, file by file.
+async fn read_recordings(context: &mut LoadContext<'_>, tour: &Tour) -> Result<Recordings, Problems> {
+    let mut reader = RecordingsReader::new(tour);
+    while let Some((place, file)) = reader.wanted() {
+        let read = read_beside(context, &place, &file).await;
+        reader.take(read.unwrap_or_else(|problem| Err(problem.message)));
+    }
+    reader.finish()
 }
 
 /// Reads a file beside the tour; a path that leaves the folder is a problem, a file that is not there an error text.

@@ -221,7 +221,7 @@ fn finish(
             for remark in built.remarks.iter().chain(&built.solution.report.remarks) {
                 info!("{remark}");
             }
-            let motion = TourMotion::new(asset.tour(), &built.scene);
+            let motion = TourMotion::new(asset.tour(), &built);
             spawn::show(commands, assets, entity, built, motion.simulation(), *policy, layers, before);
             let weather = TourWeather(motion.simulation().weather_to_come());
             commands.entity(entity).try_insert(motion).try_insert_if_new(weather);

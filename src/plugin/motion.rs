@@ -11,8 +11,8 @@ use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
 use super::material::TourMaterial;
 use super::spawn::{ShownTour, TourPart};
+use crate::assemble::AssembledTour;
 use crate::motion::{LoopError, STEP_SECONDS, Simulation};
-use crate::scene::TourScene;
 use crate::tour::{Motion, Tour};
 use crate::water::WaterPoint;
 use crate::water::body::BodyPose;
@@ -61,8 +61,8 @@ pub struct TouchWater {
 
 impl TourMotion {
     /// The motion of a tour from its start.
-    pub(super) fn new(tour: &Tour, scene: &TourScene) -> Self {
-        let (simulation, remarks) = Simulation::new(tour, scene);
+    pub(super) fn new(tour: &Tour, built: &AssembledTour) -> Self {
+        let (simulation, remarks) = Simulation::new(tour, &built.scene, &built.recordings);
         for remark in remarks {
             info!("{remark}");
         }

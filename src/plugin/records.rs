@@ -138,19 +138,18 @@ impl Records {
         if let Some(sea) = sea.filter(|sea| sea.present_gain() > 0.0) {
             // Variance in any one direction is half of the whole.
             let half = 0.5 * sea.present_gain().powi(2);
+            let [large, small] = sea.tiles().each_ref().map(|tile| tile.size().as_vec2());
+            texels[0] = Vec4::new(large.x, large.y, small.x, small.y);
             for (side, tile) in sea.tiles().iter().enumerate() {
-                texels[0][side] = tile.size() as f32;
                 for (level, lost) in tile.lost_by_level().iter().enumerate() {
                     texels[2 + 2 * side + level / 4][level % 4] = (half * lost.total()) as f32;
                 }
             }
-            texels[0].z = 1.0;
             texels[1].w = (half * sea.hidden_covariance().total()) as f32;
         }
         if let Some(ripples) = ripples {
             let grid = ripples.grid();
             let origin = grid.origin.as_vec2();
-            texels[0].w = 1.0;
             texels[1] = Vec4::new(origin.x, origin.y, grid.cell as f32, texels[1].w);
         }
     }

@@ -28,7 +28,7 @@ pub use object::{Course, Floating, Motion, Object, Recorded, Support, Sway, Sway
 pub use problem::{Place, Problem, Problems};
 pub use relative_path::{RelativePath, UnsafePath};
 pub(crate) use save::write_whole;
-pub use weather::{Jonswap, Octaves, RecordedSea, Sea, Waves, Wind};
+pub use weather::{Jonswap, MOST_FRAMES, Octaves, RecordedSea, Sea, Waves, Wind};
 
 use std::convert::Infallible;
 use std::io;

@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::relative_path::RelativePath;
 
+/// The most frames of a recorded sea: in memory they take 256 MiB.
+pub const MOST_FRAMES: u32 = 4096;
+
 /// The wind over the whole tour.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -129,18 +132,67 @@ impl Default for Jonswap {
 /// Height fields made by another simulator, one 16-bit gray picture a frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecordedSea<P = RelativePath> {
-    /// The first frame's file; its last digits count up by one a frame.
+    /// The first frame's file; the last digits of its name count up by one a frame. Gray of 16 bits, or OpenEXR.
     pub first: P,
-    /// How many frames, at least 1.
+    /// How many frames, 1 to 4096.
     pub count: u32,
     /// 1 to 240.
     pub frames_per_second: f64,
-    /// Meters between black and white, above 0; middle gray is the resting water.
+    /// Meters between black and white, above 0; middle gray is the resting water. Of OpenEXR, meters that 1 stands for.
     pub height: f64,
-    /// Width and depth of the water that a frame covers, meters; it repeats beyond.
+    /// Width (x) and depth (z) of the water that a frame covers, meters: from x = −width/2 to width/2, and from z = 0 at its
+    /// lower edge to −depth at its upper one. It repeats beyond.
     pub area: (f64, f64),
+}
+
+impl RecordedSea {
+    /// The file of a frame, from 0; `None` where `first` has no digits that count so far.
+    #[must_use]
+    pub fn frame(&self, index: u32) -> Option<RelativePath> {
+        RelativePath::new(&counted_up(self.first.as_str(), index)?).ok()
+    }
+}
+
+/// A path with the last digits of its file's name counted up, none of them lost; by 0 any path is itself.
+pub(super) fn counted_up(path: &str, by: u32) -> Option<String> {
+    if by == 0 {
+        return Some(path.to_owned());
+    }
+    let name = path.rfind('/').map_or(0, |slash| slash + 1);
+    let stem_end = path[name..].rfind('.').map_or(path.len(), |dot| name + dot);
+    let end =
+        path[name..stem_end].rfind(|letter: char| letter.is_ascii_digit()).map(|last| name + last + 1)?;
+    let start = path[name..end].rfind(|letter: char| !letter.is_ascii_digit());
+    let start =
+        start.map_or(name, |last| name + last + path[name + last..].chars().next().map_or(1, char::len_utf8));
+    let digits = &path[start..end];
+    let number = digits.parse::<u64>().ok()?.checked_add(by.into())?;
+    Some(format!("{}{number:0width$}{}", &path[..start], &path[end..], width = digits.len()))
 }
 
 fn yes() -> bool {
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_digits_of_a_file_s_name_count_up() {
+        for (first, by, expected) in [
+            ("sea/0001.png", 1, Some("sea/0002.png")),
+            ("sea/0001.png", 299, Some("sea/0300.png")),
+            ("sea/98.png", 3, Some("sea/101.png")),
+            ("v2/wave_09_half.exr", 1, Some("v2/wave_10_half.exr")),
+            ("Höhe7ü3.png", 8, Some("Höhe7ü11.png")),
+            ("a.b/7", 2, Some("a.b/9")),
+            ("take2/sea.png", 0, Some("take2/sea.png")),
+            ("take2/sea.png", 1, None),
+            ("sea.mp4", 1, None),
+            ("99999999999999999999.png", 1, None),
+        ] {
+            assert_eq!(counted_up(first, by).as_deref(), expected, "{first} by {by}");
+        }
+    }
 }

@@ -8,9 +8,11 @@ mod fft;
 
 pub mod body;
 pub mod ripples;
+mod rounds;
 pub mod sea;
 mod surface;
 
+pub use rounds::RoundError;
 pub use surface::{MovingWater, StillWater, WaterPoint, WaterSurface};
 
 /// Acceleration of gravity, m/s².

@@ -10,6 +10,7 @@ use bevy_picture_tour::assemble::{TourSource, assemble};
 use bevy_picture_tour::maps::MapOptions;
 use bevy_picture_tour::picture::{PngPixels, save_png};
 use glam::UVec2;
+use image::{ImageBuffer, Luma};
 
 const TOUR: &str = r#"(
   version: 1,
@@ -197,6 +198,84 @@ fn masks_that_do_not_fit_are_refused_by_name() {
     names(&empty, 19, &["objects[0].outline", "covers nothing"]);
     let shape = said_with("size: (64, 40)", "size: (64, 64)");
     names(&shape, 3, &["picture.size", "64 × 40"]);
+}
+
+/// The sound tour with a boat and a sea that were recorded, their files beside it.
+fn recorded(folder: &Path) {
+    let contact = "contact: ((28, 28), (40, 28))";
+    let waves = "  waves: (sea: Recorded(first: \"sea/08.png\", count: 3, frames_per_second: 10, height: 0.2, area: (8, 5))),\n)\n";
+    let tour = TOUR.replace(contact, &format!("{contact}, motion: Recorded(poses: \"boat.json\")"));
+    let end = tour.rfind(')').unwrap();
+    fs::write(folder.join("lake.tour.ron"), format!("{}{waves}", &tour[..end])).unwrap();
+    fs::write(folder.join("boat.json"), r#"[{"seconds": 0, "position": [0, 0, 0]}]"#).unwrap();
+    fs::create_dir(folder.join("sea")).unwrap();
+    for name in ["08", "09", "10"] {
+        write_frame(&folder.join(format!("sea/{name}.png")), 16, 10);
+    }
+}
+
+/// A frame of 16-bit gray.
+fn write_frame(path: &Path, width: u32, height: u32) {
+    ImageBuffer::from_fn(width, height, |x, y| Luma([(900 * x + 70 * y) as u16])).save(path).unwrap();
+}
+
+/// What is said when something of the recorded tour is spoiled.
+fn said_of_recorded(spoil: impl FnOnce(&Path)) -> String {
+    said(|folder| {
+        recorded(folder);
+        spoil(folder);
+    })
+}
+
+#[test]
+fn recordings_that_cannot_be_used_are_refused_by_name() {
+    let folder = tempfile::tempdir().unwrap();
+    write_sound(folder.path());
+    recorded(folder.path());
+    let open = || TourSource::open(&folder.path().join("lake.tour.ron"));
+    let source = open().unwrap_or_else(|problems| panic!("{problems}"));
+    assert_eq!(source.recordings.sea.unwrap().count(), 3);
+    assert!(source.notes.is_empty(), "{:?}", source.notes);
+    // Eight bits are read, and told.
+    let gray: Vec<u8> = (0..160).collect();
+    save_png(&folder.path().join("sea/09.png"), UVec2::new(16, 10), PngPixels::Gray(&gray)).unwrap();
+    let notes = open().unwrap().notes;
+    assert!(notes.len() == 1 && notes[0].contains("8 bits"), "{notes:?}");
+
+    let gone = said_of_recorded(|folder| fs::remove_file(folder.join("sea/09.png")).unwrap());
+    names(&gone, 23, &["waves.sea.first", "sea/09.png", "put the file"]);
+    let other = said_of_recorded(|folder| write_frame(&folder.join("sea/10.png"), 20, 10));
+    names(&other, 23, &["waves.sea.first", "sea/10.png", "20 x 10", "16 x 10", "in one size"]);
+    let small = said_of_recorded(|folder| write_frame(&folder.join("sea/08.png"), 7, 10));
+    names(&small, 23, &["waves.sea.first", "sea/08.png", "7 x 10", "8 to 4096 pixels"]);
+    let large =
+        said_of_recorded(|folder| fs::write(folder.join("sea/08.png"), png_header(5000, 10)).unwrap());
+    names(&large, 23, &["sea/08.png", "5000 x 10", "8 to 4096 pixels"]);
+    let text = said_of_recorded(|folder| fs::write(folder.join("sea/08.png"), "no frame").unwrap());
+    names(&text, 23, &["waves.sea.first", "sea/08.png", "text file"]);
+    let json = said_of_recorded(|folder| fs::write(folder.join("boat.json"), "[{\"seconds\": 0").unwrap());
+    names(&json, 20, &["objects[0].motion.poses", "boat.json", "do not read", "write a list"]);
+    let none = said_of_recorded(|folder| fs::write(folder.join("boat.json"), "[]").unwrap());
+    names(&none, 20, &["objects[0].motion.poses", "boat.json", "empty", "at least one"]);
+    let many = said_of_recorded(|folder| {
+        let tour = fs::read_to_string(folder.join("lake.tour.ron")).unwrap();
+        fs::write(folder.join("lake.tour.ron"), tour.replace("count: 3", "count: 5000")).unwrap();
+    });
+    names(&many, 23, &["waves.sea.count", "5000", "4096"]);
+    let uncounted = said_of_recorded(|folder| {
+        let tour = fs::read_to_string(folder.join("lake.tour.ron")).unwrap();
+        fs::write(folder.join("lake.tour.ron"), tour.replace("sea/08.png", "sea/frame.png")).unwrap();
+    });
+    names(&uncounted, 23, &["waves.sea.first", "no digits", "sea/0001.png"]);
+    // All at once, the picture's among them.
+    let all = said_of_recorded(|folder| {
+        for file in ["water.png", "boat.json", "sea/09.png"] {
+            fs::remove_file(folder.join(file)).unwrap();
+        }
+    });
+    for word in ["water.region", "objects[0].motion.poses", "waves.sea.first"] {
+        assert!(all.contains(word), "{word:?} is not in: {all}");
+    }
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The GPU's frames are those of the reference tracer, on world A1, wherever in the game the tour stands.
 
+use std::io::Cursor;
 use std::sync::Arc;
 
 use bevy::asset::AssetPlugin;
@@ -9,14 +10,15 @@ use bevy::render::settings::{WgpuSettings, WgpuSettingsPriority};
 use bevy_picture_tour::assemble::TourSource;
 use bevy_picture_tour::camera::{Intrinsics, PinholeCamera};
 use bevy_picture_tour::headless::{HeadlessTour, headless_app, headless_app_with};
-use bevy_picture_tour::motion::Simulation;
+use bevy_picture_tour::motion::{Recordings, Simulation};
 use bevy_picture_tour::picture::{Mask, Picture, PicturePoint, PngPixels, save_png};
 use bevy_picture_tour::tour::{
-    BackgroundPlace, Band, Course, Floating, Jonswap, Motion, Region, Sea, Sky, Support, Sway, SwayKind,
-    Tour, TourFile, Waypoint, Wind,
+    BackgroundPlace, Band, Course, Floating, Jonswap, Motion, Recorded, RecordedSea, Region, Sea, Sky,
+    Support, Sway, SwayKind, Tour, TourFile, Waypoint, Wind,
 };
 use bevy_picture_tour::trace::Reference;
 use bevy_picture_tour::trace::compare::Comparison;
+use image::{ImageBuffer, ImageFormat, Luma};
 
 use crate::support::{a1, adapter};
 
@@ -139,7 +141,7 @@ fn what_moves_is_drawn_alike() {
     let mut gpu = HeadlessTour::new(source.clone(), size, Transform::default()).unwrap();
     let solved = gpu.solved().expect("the tour is shown");
     let own = solved.scene.camera;
-    let (mut motion, remarks) = Simulation::new(&source.tour, &solved.scene);
+    let (mut motion, remarks) = Simulation::new(&source.tour, &solved.scene, &source.recordings);
     assert!(remarks.is_empty(), "{remarks:?}");
     for (seconds, pose) in [0.0, 1.3, 4.0, 9.7, 19.5].into_iter().zip(a1::poses()) {
         let camera = PinholeCamera { pose, ..own };
@@ -162,6 +164,65 @@ fn what_moves_is_drawn_alike() {
     gpu.go_to(None);
     let found = Comparison::of(&gpu.render(&own).unwrap(), &source.picture).unwrap();
     assert!(found.max_code_difference <= 1, "still again, {} codes off", found.max_code_difference);
+}
+
+#[test]
+fn recordings_are_drawn_alike() {
+    let Some(_gpu) = adapter() else { return };
+    let source = a1_with(|tour| {
+        tour.waves.sea = Sea::Recorded(RecordedSea {
+            first: "sea/09.png".into(),
+            count: 2,
+            frames_per_second: 1.0,
+            height: 0.4,
+            area: (9.0, 5.0),
+        });
+        let last = tour.objects.iter().rposition(|object| object.support == Support::Water).unwrap();
+        tour.objects[last].motion = Motion::Recorded(Recorded { poses: "poses.json".into(), looped: true });
+    });
+    let recordings = Recordings::read(&source.tour, &|file| match file.as_str() {
+        "poses.json" => Ok(POSES.into()),
+        frame => Ok(wave(if frame == "sea/09.png" { 0.0 } else { 0.25 })),
+    });
+    let recordings = recordings.unwrap_or_else(|problems| panic!("{problems}"));
+    let source = Arc::new(TourSource { recordings, ..(*source).clone() });
+    let mut gpu = HeadlessTour::new(source.clone(), source.picture.size(), Transform::default()).unwrap();
+    let solved = gpu.solved().expect("the tour is shown");
+    let (mut motion, remarks) = Simulation::new(&source.tour, &solved.scene, &source.recordings);
+    assert!(remarks.is_empty(), "{remarks:?}");
+    for (seconds, pose) in [0.0, 0.7].into_iter().zip([solved.scene.camera.pose, a1::poses()[3]]) {
+        let camera = PinholeCamera { pose, ..solved.scene.camera };
+        gpu.go_to(Some(seconds));
+        motion.go_to(seconds);
+        let water = motion.water();
+        let reference = || Reference::new(&solved.scene, &solved.maps);
+        let moved = reference().with_water(&water).at_moment(motion.moment()).render(&camera, 1);
+        let frame = gpu.render(&camera).unwrap();
+        let found = Comparison::of(&frame, &moved).unwrap();
+        let (mean, within) = (found.mean_difference, found.share_within(6));
+        if mean >= 0.5 || within < 0.995 {
+            keep(&format!("recorded_{seconds}"), &frame, &moved);
+        }
+        assert!(mean < 0.5, "at {seconds} s: mean difference {mean:.4} codes, at most 0.5");
+        assert!(within >= 0.995, "at {seconds} s: {within:.5} within 6 codes, at least 0.995");
+        let seen = Comparison::of(&moved, &reference().render(&camera, 1)).unwrap().mean_difference;
+        assert!(seen > 1.0, "at {seconds} s only {seen:.3} codes tell the recordings from rest");
+    }
+}
+
+/// Ahead, turned and tilted.
+const POSES: &str = r#"[{"seconds": 0, "position": [0.1, 0.05, -0.4], "yaw_deg": 10, "roll_deg": 3},
+    {"seconds": 1, "position": [0.4, 0.0, -0.9], "yaw_deg": 25, "pitch_deg": 2}, {"seconds": 2, "position": [0, 0, 0]}]"#;
+
+/// A frame of 16-bit gray: two waves along and one down, so many turns on.
+fn wave(turns: f64) -> Vec<u8> {
+    let frame = ImageBuffer::from_fn(72, 40, |column, row| {
+        let phase = f64::from(column) / 36.0 - f64::from(row) / 40.0 - turns;
+        Luma([(32_767.5 + 20_000.0 * (std::f64::consts::TAU * phase).cos()) as u16])
+    });
+    let mut png = Cursor::new(Vec::new());
+    frame.write_to(&mut png, ImageFormat::Png).unwrap();
+    png.into_inner()
 }
 
 /// To the right and away, and back as the mirrored copy within 19 s.

@@ -6,6 +6,9 @@ use bevy::prelude::*;
 use bevy_picture_tour::assemble::{TourOnDisk, assemble};
 use bevy_picture_tour::bake;
 use bevy_picture_tour::maps::MapOptions;
+use bevy_picture_tour::picture::{PngPixels, save_png};
+use bevy_picture_tour::plugin::TourMotion;
+use bevy_picture_tour::tour::{RecordedSea, Sea, Tour};
 use bevy_picture_tour::trace::Reference;
 use bevy_picture_tour::trace::compare::Comparison;
 
@@ -92,6 +95,40 @@ fn a_baked_tour_is_shown_without_its_picture() {
     stage.wait("the failure", |stage| !stage.heard().failed.is_empty());
     let error = &stage.heard().failed[0].1;
     assert!(error.contains("damaged") && error.contains("picture-tour bake"), "{error}");
+}
+
+#[test]
+fn a_baked_tour_moves_with_the_recordings_beside_it() {
+    let Some(_gpu) = adapter() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    made_scene::write_to(folder.path());
+    let ron = folder.path().join("lake.tour.ron");
+    let disk = TourOnDisk::open(&ron).unwrap();
+    let source = disk.source().unwrap();
+    let options = MapOptions::default();
+    let built = assemble(&source, &options, &|_, _| true).unwrap();
+    let fingerprint = bake::fingerprint(&disk.tour, &options, &|file| disk.read(file)).unwrap();
+    bake::save(&bake::baked_path(&ron), &disk.tour, &source, &built, fingerprint).unwrap();
+    // What moves may change after a bake. Black is half of the height below the resting water.
+    let mut file = disk.tour.to_file();
+    file.waves.sea = Sea::Recorded(RecordedSea {
+        first: "black.png".into(),
+        count: 1,
+        frames_per_second: 25.0,
+        height: 0.5,
+        area: (10.0, 10.0),
+    });
+    Tour::check(file).unwrap().save(&ron).unwrap();
+    let black = folder.path().join("black.png");
+    save_png(&black, UVec2::new(8, 8), PngPixels::Gray(&[0; 64])).unwrap();
+
+    let mut stage = Stage::with_assets_of(folder.path());
+    let root = stage.tour_of("lake.tour.ron");
+    stage.wait("the baked tour", |stage| !stage.heard().ready.is_empty());
+    assert!(stage.heard().previews.is_empty(), "it was built instead of read");
+    let motion = stage.app.world().get::<TourMotion>(root).expect("it is shown");
+    let height = motion.water_at((0.0, -8.0).into()).height;
+    assert!((height + 0.25).abs() < 1e-6, "the water stands at {height} m");
 }
 
 #[test]

@@ -89,13 +89,14 @@ pub(crate) fn on_disk(path: &Path) -> Result<TourOnDisk, Failure> {
 pub(crate) fn fresh_bake(path: &Path, disk: &TourOnDisk) -> Result<Baked, Option<String>> {
     let baked = bake::baked_path(path);
     let Ok(bytes) = std::fs::read(&baked) else { return Err(None) };
-    bake::fresh(&bytes, &disk.tour, &MapOptions::default(), &|file| disk.read(file)).map_err(|reason| {
-        match reason {
-            // Told when the tour is built.
-            NotFresh::Unread(_) => None,
-            reason => Some(format!("{} is not used: {reason}", baked.display())),
-        }
-    })
+    let fresh = bake::fresh(&bytes, &disk.tour, &MapOptions::default(), &|file| disk.read(file));
+    let fresh = fresh.map_err(|reason| match reason {
+        // Told when the tour is built.
+        NotFresh::Unread(_) => None,
+        reason => Some(format!("{} is not used: {reason}", baked.display())),
+    })?;
+    // Likewise.
+    Ok(fresh.with_recordings(disk.recordings().map_err(|_| None)?))
 }
 
 impl Opened {

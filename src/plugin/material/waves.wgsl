@@ -73,13 +73,15 @@ fn ripple_mean(waves: texture_2d<f32>, place: vec2<f32>) -> vec4<f32> {
 // The surface at (x, z) for a pixel that covers `footprint` meters of it.
 fn surface(records: texture_2d<f32>, waves: texture_2d<f32>, xz: vec2<f32>, footprint: f32) -> WaterPoint {
     var found = WaterPoint(0.0, vec2(0.0), 0.0);
+    // Sizes of both tiles along x and z, 0 without a sea; where the ripples' cells begin and how large they are, 0 without.
     let tiles = textureLoad(records, vec2(0, WATER_ROW), 0);
     let grid = textureLoad(records, vec2(1, WATER_ROW), 0);
-    if tiles.z > 0.0 {
+    if tiles.x > 0.0 {
         found.roughness = grid.w;
         for (var tile = 0; tile < 2; tile++) {
-            let level = clamp(log2(footprint * f32(TILE) / tiles[tile]), 0.0, COARSEST);
-            let mean = sea_mean(waves, tile, xz / tiles[tile], level);
+            let size = select(tiles.zw, tiles.xy, tile == 0);
+            let level = clamp(log2(footprint * f32(TILE) / min(size.x, size.y)), 0.0, COARSEST);
+            let mean = sea_mean(waves, tile, xz / size, level);
             found.height += mean.x;
             found.slope += mean.yz;
             let low = lost(records, tile, i32(level));
@@ -87,7 +89,7 @@ fn surface(records: texture_2d<f32>, waves: texture_2d<f32>, xz: vec2<f32>, foot
             found.roughness += mix(low, high, fract(level));
         }
     }
-    if tiles.w > 0.0 {
+    if grid.z > 0.0 {
         let place = (xz - grid.xy) / grid.z - 0.5;
         if all(place >= vec2(0.0)) && all(place < vec2(f32(RIPPLES - 1))) {
             let mean = ripple_mean(waves, place);

@@ -1,6 +1,7 @@
 //! Checks of wind, waves and the camera's path.
 
-use super::super::weather::Sea;
+use super::super::relative_path::RelativePath;
+use super::super::weather::{MOST_FRAMES, Sea, counted_up};
 use super::Check;
 
 impl Check<'_> {
@@ -45,13 +46,22 @@ impl Check<'_> {
                 self.numbers(
                     path,
                     &[
-                        ("count", Some(f64::from(frames.count)), 1.0..=100_000.0, "frames"),
+                        ("count", Some(f64::from(frames.count)), 1.0..=f64::from(MOST_FRAMES), "frames"),
                         ("frames_per_second", Some(frames.frames_per_second), 1.0..=240.0, ""),
                         ("height", Some(frames.height), 1e-4..=100.0, "meters"),
                         ("area[0]", Some(frames.area.0), 0.1..=1e5, "meters"),
                         ("area[1]", Some(frames.area.1), 0.1..=1e5, "meters"),
                     ],
                 );
+                let is_path = RelativePath::new(&frames.first).is_ok();
+                if is_path && counted_up(&frames.first, frames.count.saturating_sub(1)).is_none() {
+                    self.report(
+                        "waves.sea.first",
+                        format!("\"{}\"", frames.first),
+                        "the file's name has no digits that count up",
+                        "write the first frame's file, as \"sea/0001.png\"",
+                    );
+                }
             }
         }
     }

@@ -4,6 +4,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::super::rounds::{MOST_HASTE, haste_of_whole_rounds};
 use super::curve::Curve;
 use super::number;
 use super::pose::{Berth, BodyPose, Facing, facing};
@@ -17,9 +18,6 @@ const TURN_SECONDS: f64 = 6.0;
 
 /// Fastest course, m/s.
 const FASTEST: f64 = 30.0;
-
-/// Most by which a course may run faster or slower than asked for, to fit a loop.
-const MOST_HASTE: f64 = 2.0;
 
 /// Farthest that a waypoint may lie, meters.
 const FARTHEST: f64 = 1e5;
@@ -160,14 +158,13 @@ impl SailedCourse {
     /// When it does not repeat, or would have to run at more than twice or less than half its speed, or faster than 30 m/s.
     pub fn with_whole_rounds(&self, loop_seconds: f64) -> Result<Self, CourseError> {
         let round = self.unhurried_round().ok_or(CourseError::NoRounds)?;
-        let rounds = (loop_seconds / round).round().max(1.0);
-        let haste = rounds * round / loop_seconds;
         let most = MOST_HASTE.min(FASTEST / self.speed);
-        if haste > 0.0 && haste <= most {
-            return Ok(Self { haste, ..self.clone() });
+        match haste_of_whole_rounds(round, loop_seconds, most) {
+            Ok(haste) => Ok(Self { haste, ..self.clone() }),
+            Err(least_seconds) => {
+                Err(CourseError::LoopTooShort { round_seconds: round, loop_seconds, least_seconds })
+            }
         }
-        let least_seconds = round / most;
-        Err(CourseError::LoopTooShort { round_seconds: round, loop_seconds, least_seconds })
     }
 
     /// Where the body is at a time; what is no number counts as 0.

@@ -6,6 +6,7 @@
 use glam::DVec3;
 use serde::Deserialize;
 
+use super::super::rounds::{RoundError, haste_of_recording};
 use super::pose::BodyPose;
 use super::wrapped;
 
@@ -62,6 +63,8 @@ pub enum PosesError {
 pub struct RecordedPoses {
     poses: Vec<(f64, BodyPose)>,
     looped: bool,
+    /// How much faster time runs than it should, to fit a loop.
+    haste: f64,
 }
 
 impl RecordedPoses {
@@ -107,7 +110,33 @@ impl RecordedPoses {
                 return Err(PosesError::Unsorted { index: i + 1, seconds, before });
             }
         }
-        Ok(Self { poses, looped })
+        Ok(Self { poses, looped, haste: 1.0 })
+    }
+
+    /// The same poses, so much faster or slower that a whole number of rounds takes `loop_seconds`. A single pose stays.
+    ///
+    /// # Errors
+    ///
+    /// When they do not start over, or would have to run more than twice as fast.
+    pub fn with_whole_rounds(&self, loop_seconds: f64) -> Result<Self, RoundError> {
+        let duration = self.duration();
+        if duration == 0.0 {
+            return Ok(self.clone());
+        }
+        if !self.looped {
+            return Err(RoundError::NoRounds);
+        }
+        Ok(Self { haste: haste_of_recording(duration, loop_seconds)?, ..self.clone() })
+    }
+
+    /// Whether the pose is the same at any time.
+    #[must_use]
+    pub fn is_still(&self) -> bool {
+        self.poses.iter().all(|(_, pose)| *pose == self.poses[0].1)
+    }
+
+    fn duration(&self) -> f64 {
+        self.poses[self.poses.len() - 1].0 - self.poses[0].0
     }
 
     /// The pose at a time: angles turn the shorter way. Outside of the recording the nearer end holds, or it starts over.
@@ -115,10 +144,12 @@ impl RecordedPoses {
     #[must_use]
     pub fn at(&self, seconds: f64) -> BodyPose {
         let (start, first) = self.poses[0];
-        let (end, last) = self.poses[self.poses.len() - 1];
-        let duration = end - start;
+        let (_, last) = self.poses[self.poses.len() - 1];
+        let duration = self.duration();
         let time = if self.looped && duration > 0.0 {
-            start + (seconds - start).rem_euclid(duration)
+            // Reduced by the round itself, so that loops close to the bit.
+            let within = seconds.rem_euclid(duration / self.haste) * self.haste;
+            start + (within - start).rem_euclid(duration)
         } else {
             seconds
         };

@@ -1,10 +1,13 @@
-//! The waves of the wind: a sea of many waves in two tiles that repeat over the water, and in time.
+//! The waves of the wind, or of another simulator's frames, in two tiles that repeat over the water, and in time.
 //!
 //! [`SeaSurface`] holds the sea of one moment; [`SeaSurface::update`] moves it to any other, in any order, without
-//! allocating. All kinds of sea come as the same two [`SeaTile`]s. It is a function of options, seed, time and gain.
+//! allocating. All kinds of sea come as the same two [`SeaTile`]s. It is a function of options, seed (or [`SeaFrames`]),
+//! time and gain.
 
 mod covariance;
 mod fetch;
+mod recorded;
+mod resample;
 mod spectrum;
 mod synthesis;
 mod tile;
@@ -15,13 +18,17 @@ use std::ops::{Add, AddAssign};
 use glam::{DVec2, Vec2};
 
 use crate::tour::{self, Wind};
+use crate::wind::HIGHEST_WAVES;
 
 pub use covariance::SlopeCovariance;
+pub use recorded::{FRAME_SIDES, FrameError, SeaFrames};
 pub use tile::{LEVELS, SeaTile};
+pub use waves::Waves;
 
+use recorded::Replay;
 use synthesis::Synthesis;
-use tile::kept_by_mean;
-use waves::Waves;
+
+use super::RoundError;
 
 /// Texels along a tile's side.
 pub const TEXELS: usize = 128;
@@ -64,22 +71,26 @@ impl AddAssign for WaveSample {
     }
 }
 
-/// The waves of the wind at one moment.
+/// The sea at one moment.
 ///
 /// Shape and phases belong to the wind of the tour, and stay; a wind that changes makes the waves higher or lower
-/// ([`gain`](Self::gain)) without moving them. A sea begins flat.
+/// ([`gain`](Self::gain)) without moving them. A recorded sea does not follow the wind. A sea begins flat.
 #[derive(Clone, Debug)]
 pub struct SeaSurface {
-    waves: Waves,
-    synthesis: Synthesis,
+    source: Source,
     tiles: [SeaTile; 2],
-    nominal_speed: f64,
-    steepest_gain: f64,
     gain: f64,
 }
 
+/// What fills the tiles.
+#[derive(Clone, Debug)]
+enum Source {
+    Wind { waves: Waves, synthesis: Synthesis, nominal_speed: f64, steepest_gain: f64 },
+    Recorded(Replay),
+}
+
 impl SeaSurface {
-    /// The sea of a tour's options; `None` when there is none, or when it was recorded.
+    /// The sea of a tour's options; `None` when there is none, or when it was [recorded](Self::recorded).
     ///
     /// Whatever the options leave open follows from the wind: `H_s = 0.4 · 1.6·10⁻³ U (F/g)^½` and
     /// `T_p = 0.286 U^⅓ F^⅓ g^(−⅔)` with a fetch F of 1 km (Hasselmann et al. 1973; the 0.4 stands for the shelter of an
@@ -95,18 +106,40 @@ impl SeaSurface {
         let tiles = [SeaTile::new(&waves, 0), SeaTile::new(&waves, 1)];
         let synthesis = Synthesis::new(&waves);
         let nominal_speed = fetch::nominal_speed(wind);
-        let mut sea =
-            Self { waves, synthesis, tiles, nominal_speed, steepest_gain: f64::INFINITY, gain: 0.0 };
-        sea.steepest_gain = (BREAKING / sea.slope_covariance().total()).sqrt();
-        Some(sea)
+        let steepest_gain = (BREAKING / waves.slope_covariance().total()).sqrt();
+        let source = Source::Wind { waves, synthesis, nominal_speed, steepest_gain };
+        Some(Self { source, tiles, gain: 0.0 })
+    }
+
+    /// The sea of a simulator's frames, joined by straight lines in time; `None` when there is no frame.
+    #[must_use]
+    pub fn recorded(frames: SeaFrames) -> Option<Self> {
+        let replay = Replay::new(frames)?;
+        Some(Self { tiles: replay.tiles(), source: Source::Recorded(replay), gain: 0.0 })
+    }
+
+    /// Lets a recorded sea run so much faster or slower that a whole number of rounds takes `loop_seconds`; that of the
+    /// wind repeats after its period anyhow.
+    ///
+    /// # Errors
+    ///
+    /// When it would have to run more than twice as fast.
+    pub fn fit_rounds(&mut self, loop_seconds: f64) -> Result<(), RoundError> {
+        match &mut self.source {
+            Source::Wind { .. } => Ok(()),
+            Source::Recorded(replay) => replay.fit(loop_seconds),
+        }
     }
 
     /// How many times as high as tabulated the waves are in a wind of `wind_speed` m/s: 0 without wind, 1 in the
     /// tour's own, and in proportion between, as `H_s ∝ U` at a given fetch (Hasselmann et al. 1973), up to where
-    /// waves break.
+    /// waves break. Those of a recorded sea always are as high as recorded: 1.
     #[must_use]
     pub fn gain(&self, wind_speed: f64) -> f64 {
-        self.sound_gain(wind_speed / self.nominal_speed)
+        match &self.source {
+            Source::Wind { nominal_speed, .. } => self.sound_gain(wind_speed / nominal_speed),
+            Source::Recorded(_) => 1.0,
+        }
     }
 
     /// Moves the sea to `seconds`, any time, with waves `gain` times as high as tabulated. A gain that is no number is 0, a
@@ -115,15 +148,20 @@ impl SeaSurface {
         let was_flat = self.gain == 0.0;
         self.gain = self.sound_gain(gain);
         if self.gain > 0.0 {
-            let turn = (seconds / self.waves.period).rem_euclid(1.0);
-            let turn = if turn.is_nan() { 0.0 } else { turn };
-            self.synthesis.run(turn, self.gain as f32, &mut self.tiles);
+            match &mut self.source {
+                Source::Wind { waves, synthesis, .. } => {
+                    let turn = (seconds / waves.period).rem_euclid(1.0);
+                    let turn = if turn.is_nan() { 0.0 } else { turn };
+                    synthesis.run(turn, self.gain as f32, &mut self.tiles);
+                }
+                Source::Recorded(replay) => replay.run(seconds, self.gain, &mut self.tiles[0]),
+            }
         } else if !was_flat {
             self.tiles.iter_mut().for_each(SeaTile::flatten);
         }
     }
 
-    /// The large and the small tile, which are to be added.
+    /// The large and the small tile, which are to be added. A recorded sea has its frames in the first; the other is flat.
     #[must_use]
     pub fn tiles(&self) -> &[SeaTile; 2] {
         &self.tiles
@@ -139,17 +177,13 @@ impl SeaSurface {
         self.tiles[0].sample(xz) + self.tiles[1].sample(xz)
     }
 
-    /// The surface at (x, z) and any time at a gain of 1, by the sum over all waves: a few microseconds for octaves, a
-    /// tenth of a millisecond for a JONSWAP sea.
+    /// The single waves of the wind; `None` of a recorded sea.
     #[must_use]
-    pub fn exact(&self, xz: DVec2, seconds: f64) -> WaveSample {
-        self.waves.sum(xz, seconds)
-    }
-
-    /// Seconds after which the sea repeats.
-    #[must_use]
-    pub fn period(&self) -> f64 {
-        self.waves.period
+    pub fn waves(&self) -> Option<&Waves> {
+        match &self.source {
+            Source::Wind { waves, .. } => Some(waves),
+            Source::Recorded(_) => None,
+        }
     }
 
     /// The gain of the last [`update`](Self::update).
@@ -158,46 +192,24 @@ impl SeaSurface {
         self.gain
     }
 
-    /// Four times the standard deviation of the height at a gain of 1, meters.
-    #[must_use]
-    pub fn significant_height(&self) -> f64 {
-        4.0 * self.waves.variance().sqrt()
-    }
-
-    /// Covariance of all slopes at a gain of 1, those of waves too short for the tiles included; grows with the gain's square.
-    #[must_use]
-    pub fn slope_covariance(&self) -> SlopeCovariance {
-        self.unresolved_covariance(DVec2::INFINITY)
-    }
-
     /// Covariance, at a gain of 1, of the slopes of waves too short for the tiles (of 5 cm and more, for a JONSWAP
-    /// sea); grows with the gain's square.
+    /// sea); grows with the gain's square. 0 of a recorded sea.
     #[must_use]
     pub fn hidden_covariance(&self) -> SlopeCovariance {
-        self.waves.hidden
-    }
-
-    /// Covariance, at a gain of 1, of the slopes that vanish in the mean over a footprint of so many meters along x and
-    /// z: what a pixel of that footprint must show as blur (notes §8.4). Includes waves too short for the tiles; grows
-    /// with the gain's square. Sums over all waves: tabulate it, about 0.1 ms each.
-    #[must_use]
-    pub fn unresolved_covariance(&self, footprint: DVec2) -> SlopeCovariance {
-        let mut covariance = self.waves.hidden;
-        for wave in &self.waves.waves {
-            let wave_vector = self.waves.wave_vector(wave);
-            let kept = kept_by_mean(wave_vector, footprint);
-            let mut whole = SlopeCovariance::default();
-            whole.add_wave(wave_vector, wave.amplitude);
-            covariance += whole * (1.0 - kept * kept);
-        }
-        covariance
+        self.waves().map_or(SlopeCovariance::default(), |waves| waves.hidden)
     }
 
     fn sound_gain(&self, gain: f64) -> f64 {
+        let most = match &self.source {
+            Source::Wind { steepest_gain, .. } => *steepest_gain,
+            Source::Recorded(_) => HIGHEST_WAVES,
+        };
         // A comparison with NaN is false.
-        if gain > 0.0 { gain.min(self.steepest_gain) } else { 0.0 }
+        if gain > 0.0 { gain.min(most) } else { 0.0 }
     }
 }
 
+#[cfg(test)]
+mod recorded_tests;
 #[cfg(test)]
 mod tests;

@@ -1,4 +1,4 @@
-//! One square of the sea, repeated over the water: texels for the shader, and the same by interpolation.
+//! One rectangle of the sea, repeated over the water: texels for the shader, and the same by interpolation.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,14 +11,14 @@ use super::{TEXELS, WaveSample};
 /// Mip levels of a tile, down to one texel.
 pub const LEVELS: usize = TEXELS.ilog2() as usize + 1;
 
-/// A square of the sea that repeats along x and z.
+/// A rectangle of the sea that repeats along x and z; of waves of the wind a square.
 ///
-/// Texel (column i, row j) of level l, at index l's start + j·(128 >> l) + i, is the mean over the square of 2ˡ·2ˡ texels of
-/// level 0, whose texel (i, j) lies at x = i·size/128, z = j·size/128 plus any multiple of the size. A texture is
+/// Texel (column i, row j) of level l, at index l's start + j·(128 >> l) + i, is the mean over the block of 2ˡ·2ˡ texels of
+/// level 0, whose texel (i, j) lies at (x, z) = (i, j)·size/128 plus any multiple of the size. A texture is
 /// therefore read at uv = xz/size + 0.5/128.
 #[derive(Clone, Debug)]
 pub struct SeaTile {
-    size: f64,
+    size: DVec2,
     texels: Vec<[f32; 4]>,
     displacements: Vec<[f32; 2]>,
     lost: [SlopeCovariance; LEVELS],
@@ -41,25 +41,30 @@ impl SeaTile {
                 *lost += whole * (1.0 - kept * kept);
             }
         }
+        Self { lost, ..Self::flat(DVec2::splat(waves.sizes[index])) }
+    }
+
+    /// Still water of `size` meters along x and z.
+    pub(super) fn flat(size: DVec2) -> Self {
         let count = (0..LEVELS).map(|level| (TEXELS >> level).pow(2)).sum();
         Self {
-            size: waves.sizes[index],
+            size,
             texels: vec![[0.0; 4]; count],
             displacements: vec![[0.0; 2]; TEXELS * TEXELS],
-            lost,
+            lost: Default::default(),
         }
     }
 
-    /// Its side, meters.
+    /// Its sides along x and z, meters.
     #[must_use]
-    pub fn size(&self) -> f64 {
+    pub fn size(&self) -> DVec2 {
         self.size
     }
 
-    /// Side of a texel of level 0, meters.
+    /// The shorter side of a texel of level 0, meters: a mip level is as fine as it must be not to shimmer along either.
     #[must_use]
     pub fn texel(&self) -> f64 {
-        self.size / TEXELS as f64
+        self.size.min_element() / TEXELS as f64
     }
 
     /// A texel by interpolation at (x, z) in meters and between two mip levels; level 0 at most, the coarsest at least. Twin
@@ -136,6 +141,24 @@ impl SeaTile {
             }
             above = rest;
             size /= 2;
+        }
+    }
+
+    /// Measures what each level's averaging takes away of the slopes that are in it, at a gain of `gain`.
+    pub(super) fn measure_lost(&mut self, gain: f64) {
+        let mut rest = &self.texels[..];
+        let mut whole = None;
+        for (level, lost) in self.lost.iter_mut().enumerate() {
+            let (texels, coarser) = rest.split_at((TEXELS >> level).pow(2));
+            let mut left = SlopeCovariance::default();
+            for [_, x, z, _] in texels.iter().map(|texel| texel.map(f64::from)) {
+                left += SlopeCovariance { xx: x * x, xz: x * z, zz: z * z };
+            }
+            left *= 1.0 / (gain * gain * texels.len() as f64);
+            let whole = *whole.get_or_insert(left);
+            *lost = whole;
+            *lost += left * -1.0;
+            rest = coarser;
         }
     }
 

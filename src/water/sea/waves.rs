@@ -11,6 +11,7 @@ use super::super::{GRAVITY, TENSION, angular_frequency};
 use super::covariance::SlopeCovariance;
 use super::fetch;
 use super::spectrum::Spectrum;
+use super::tile::kept_by_mean;
 use super::{FINEST, WaveSample};
 use crate::tour::{Jonswap, Octaves, Wind};
 use crate::wind::Random;
@@ -43,9 +44,9 @@ pub(super) struct Wave {
     pub(super) harmonic: u32,
 }
 
-/// All waves of a sea.
+/// All waves of a sea that the wind raises.
 #[derive(Clone, Debug)]
-pub(super) struct Waves {
+pub struct Waves {
     /// Sides of the two tiles, meters.
     pub(super) sizes: [f64; 2],
     pub(super) waves: Vec<Wave>,
@@ -138,8 +139,10 @@ impl Waves {
         Self { sizes, waves, hidden, period }.scaled_to(height)
     }
 
-    /// Height, slope and displacement `seconds` after the start of the loop, by the sum over all waves.
-    pub(super) fn sum(&self, xz: DVec2, seconds: f64) -> WaveSample {
+    /// The surface at (x, z) and any time at a gain of 1, by the sum over all waves: a few microseconds for octaves, a
+    /// tenth of a millisecond for a JONSWAP sea.
+    #[must_use]
+    pub fn exact(&self, xz: DVec2, seconds: f64) -> WaveSample {
         let turn = (seconds / self.period).rem_euclid(1.0);
         let (mut height, mut slope, mut displacement, mut potential) = (0.0, DVec2::ZERO, DVec2::ZERO, 0.0);
         for wave in &self.waves {
@@ -172,14 +175,48 @@ impl Waves {
         if wave.harmonic > 0 { pull / frequency } else { 0.0 }
     }
 
+    /// Seconds after which the sea repeats.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// Four times the standard deviation of the height at a gain of 1, meters.
+    #[must_use]
+    pub fn significant_height(&self) -> f64 {
+        4.0 * self.variance().sqrt()
+    }
+
+    /// Covariance of all slopes at a gain of 1, those of waves too short for the tiles included; grows with the gain's square.
+    #[must_use]
+    pub fn slope_covariance(&self) -> SlopeCovariance {
+        self.unresolved_covariance(DVec2::INFINITY)
+    }
+
+    /// Covariance, at a gain of 1, of the slopes that vanish in the mean over a footprint of so many meters along x and
+    /// z: what a pixel of that footprint must show as blur (notes §8.4). Includes waves too short for the tiles; grows
+    /// with the gain's square. Sums over all waves: tabulate it, about 0.1 ms each.
+    #[must_use]
+    pub fn unresolved_covariance(&self, footprint: DVec2) -> SlopeCovariance {
+        let mut covariance = self.hidden;
+        for wave in &self.waves {
+            let wave_vector = self.wave_vector(wave);
+            let kept = kept_by_mean(wave_vector, footprint);
+            let mut whole = SlopeCovariance::default();
+            whole.add_wave(wave_vector, wave.amplitude);
+            covariance += whole * (1.0 - kept * kept);
+        }
+        covariance
+    }
+
     /// Mean square of the height, m².
-    pub(super) fn variance(&self) -> f64 {
+    fn variance(&self) -> f64 {
         self.waves.iter().map(|wave| 0.5 * wave.amplitude * wave.amplitude).sum()
     }
 
     /// The same waves, all as much higher as makes the significant height `height` meters.
     fn scaled_to(mut self, height: f64) -> Self {
-        let present = 4.0 * self.variance().sqrt();
+        let present = self.significant_height();
         let factor = if present > 0.0 { height / present } else { 0.0 };
         for wave in &mut self.waves {
             wave.amplitude *= factor;
