@@ -2,8 +2,8 @@
 //!
 //! In a game: [`prelude`], [`plugin`]. Without a window: `headless`. The method itself, without Bevy, in the
 //! order of its data: [`tour`] (the document) → [`solve`] (the camera), [`suggest`] (what the machine proposes) → [`depth`] (distances from the mirror image) →
-//! [`scene`] (planes in meters) → [`maps`] (what is on them), all run by [`assemble`], kept by [`bake`]; [`wind`] and
-//! [`water`], joined by [`motion`] (what moves) → [`trace`] (the reference image).
+//! [`scene`] (planes in meters) → [`maps`] (what is on them), all run by [`assemble`], kept by [`bake`]; beside it [`wind`]
+//! and [`water`], joined by [`motion`] (what moves in a scene) → [`trace`] (the reference image).
 //! [`picture`] and [`camera`] stand below them all.
 //!
 //! Pictures: pixels, (0, 0) the outer corner of the top-left one, y down. World: meters, x right, y up, −z into the

@@ -1,3 +1,5 @@
+//! Facts about the lamps: when a step is missing, rough or good.
+
 use glam::UVec2;
 
 use super::*;

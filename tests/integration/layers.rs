@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 /// Modules of `src/`, lowest first.
 const LAYERS: [&str; 17] = [
-    "picture", "camera", "tour", "solve", "suggest", "depth", "scene", "maps", "assemble", "bake", "wind",
-    "water", "motion", "trace", "plugin", "headless", "editor",
+    "picture", "camera", "tour", "solve", "suggest", "depth", "scene", "wind", "water", "motion", "maps",
+    "assemble", "bake", "trace", "plugin", "headless", "editor",
 ];
 
 /// Every file below `folder` with this ending, in order.

@@ -47,6 +47,6 @@ mod tests {
 
         assert!(path.looped);
         assert_eq!(path.keyframes[0].position, glam::DVec3::new(0.0, 1.8, 0.0));
-        assert_eq!(source.objects.len(), 3);
+        assert_eq!(source.objects.len(), 4);
     }
 }
