@@ -1,3 +1,5 @@
+//! Facts about contact lines: where feet are found, and where none are.
+
 use glam::UVec2;
 
 use super::*;

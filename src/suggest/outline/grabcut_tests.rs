@@ -1,3 +1,5 @@
+//! Facts about outlines found in boxes and by strokes.
+
 use glam::{DVec2, UVec2};
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Facts about regions grown from strokes.
+
 use glam::UVec2;
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Facts about the way along edges.
+
 use super::*;
 
 /// A picture of gray levels 60 and 180 with an antialiased edge where `off`, pixels, is 0, and a little texture.

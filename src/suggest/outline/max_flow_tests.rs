@@ -1,3 +1,5 @@
+//! Facts about the largest flow, held against brute force.
+
 use super::*;
 
 /// Numbers below `limit` from a seed (splitmix64).

@@ -1,3 +1,5 @@
+//! Facts about outlines traced around masks.
+
 use glam::UVec2;
 
 use super::*;
