@@ -95,8 +95,8 @@ impl SeaFrames {
         if !self.heights.is_empty() && size != self.size {
             return Err(FrameError::OtherSize { found: size, first: self.size });
         }
-        // Not a number is not below.
-        if let Some(height) = heights.iter().find(|height| !(height.abs() < 1e4)) {
+        let is_height = |height: &f32| height.is_finite() && height.abs() < 1e4;
+        if let Some(height) = heights.iter().find(|&height| !is_height(height)) {
             return Err(FrameError::NoHeight(*height));
         }
         let [width, height] = size.to_array().map(|side| side as usize);
