@@ -67,7 +67,7 @@ impl TourSource {
         Self::with_recordings(tour, Recordings::read(tour, read), read)
     }
 
-    /// The same with recordings that were read before; `read` is asked for the [other files](Tour::map_files) only.
+    /// The same with recordings that were read before; `read` is asked for the [other files](crate::tour::Document::map_files) only.
     ///
     /// # Errors
     ///

@@ -3,7 +3,7 @@
 //!
 //! [`find_reflection`] says whether and about which axis a picture mirrors; from that come pairs
 //! ([`suggest_pairs`]), the horizon ([`suggest_horizon`]), regions ([`suggest_regions`]) and where one more pair
-//! would help ([`advise`]). [`draft`] makes a whole tour of them. Notes §2.
+//! would help ([`advise`]). [`draft()`] makes a whole tour of them. Notes §2.
 
 mod advice;
 mod colors;

@@ -1,4 +1,4 @@
-//! The studio at work in a Bevy app: it carries out what [`studio_ui`](super::studio_ui) asks for.
+//! The studio at work in a Bevy app: it carries out what [`studio_ui`] asks for.
 //!
 //! One [`Session`] holds the desk and what is known of it; a frame checks it, shows it, and does what was asked, in order.
 //! Long work goes on in the background and may be stopped; what it finds becomes edits like any other.
