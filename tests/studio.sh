@@ -15,13 +15,24 @@ mkdir -p "$out" "$HOME"
 
 fail() { echo "studio: $1 (see $out)" >&2; exit 1; }
 shot() { import -window root "$out/$1.png"; }
+# Waits until the window shows the same twice: whatever was pressed has been drawn, however slow the machine is.
+settle() {
+    local before now=none i
+    for i in $(seq 30); do
+        before=$now
+        now=$(import -window root -depth 8 rgb:- | cksum)
+        [ "$now" = "$before" ] && return
+        sleep 0.3
+    done
+}
 # Frames on a software GPU take a moment: whatever is pressed stays down for one.
-press() { xdotool keydown "$@" sleep 0.4 keyup "$@" sleep 0.6; }
-control() { xdotool keydown ctrl sleep 0.4 key "$1" sleep 0.4 keyup ctrl sleep 0.6; }
-click() { xdotool mousemove "$1" "$2" sleep 0.6 mousedown 1 sleep 0.4 mouseup 1 sleep 0.8; }
+press() { xdotool keydown "$@" sleep 0.5 keyup "$@" sleep 0.3; settle; }
+control() { xdotool keydown ctrl sleep 0.5 key "$1" sleep 0.5 keyup ctrl sleep 0.3; settle; }
+click() { xdotool mousemove "$1" "$2" sleep 0.5 mousedown 1 sleep 0.4 mouseup 1 sleep 0.4; settle; }
 drag() {
-    xdotool mousemove "$1" "$2" sleep 0.6 mousedown 1 sleep 0.4 mousemove $((($1 + $3) / 2)) $((($2 + $4) / 2)) \
-        sleep 0.6 mousemove "$3" "$4" sleep 0.6 mouseup 1 sleep 0.6
+    xdotool mousemove "$1" "$2" sleep 0.5 mousedown 1 sleep 0.4 mousemove $((($1 + $3) / 2)) $((($2 + $4) / 2)) \
+        sleep 0.5 mousemove "$3" "$4" sleep 0.5 mouseup 1 sleep 0.4
+    settle
 }
 await() { # seconds, what, command
     local left=$1 what=$2

@@ -12,7 +12,11 @@ pub use annotate::annotations;
 pub use bands::{BandError, BandedTour, CutOptions, cut_bands};
 pub use drafted::{DraftedTour, draft_tour};
 pub use measure::{DepthHints, StandingHint, background_mask, hints, measure_depth, solve_with};
+#[cfg(feature = "editor")]
+pub(crate) use source::read_beside;
 pub use source::{TourOnDisk, TourSource};
+
+use std::sync::Arc;
 
 use glam::UVec2;
 
@@ -41,7 +45,7 @@ pub struct AssembledTour {
     /// The planes.
     pub scene: TourScene,
     /// Their maps.
-    pub maps: Maps,
+    pub maps: Arc<Maps>,
     /// Frames and poses that drive water and bodies. A baked tour does not hold them; it has them when it was read beside
     /// its document.
     pub recordings: Recordings,
@@ -163,7 +167,7 @@ pub fn assemble(
     .ok_or(AssembleError::Cancelled)?;
     let PlacedTour { solution, plan, scene, remarks, .. } = placed;
     let recordings = source.recordings.clone();
-    Ok(AssembledTour { solution, plan, scene, maps, recordings, remarks })
+    Ok(AssembledTour { solution, plan, scene, maps: Arc::new(maps), recordings, remarks })
 }
 
 /// What the scene is built from, but for the ground's banks.

@@ -279,8 +279,7 @@ impl TourOnDisk {
     ///
     /// Why it cannot be read, with its path.
     pub fn read(&self, file: &RelativePath) -> Result<Vec<u8>, String> {
-        let path = file.in_folder(&self.folder);
-        read_inside(&self.folder, &path).map_err(|error| format!("{}: {error}", path.display()))
+        read_beside(&self.folder, file)
     }
 
     /// The tour with its picture, masks and recordings.
@@ -304,6 +303,12 @@ impl TourOnDisk {
     fn placed(&self, problems: Problems) -> Problems {
         problems.located_in(&self.text).with_file(&self.name)
     }
+}
+
+/// The bytes of a file that a tour in `folder` names.
+pub(crate) fn read_beside(folder: &Path, file: &RelativePath) -> Result<Vec<u8>, String> {
+    let path = file.in_folder(folder);
+    read_inside(folder, &path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// Reads a file unless links lead it out of the folder.

@@ -1,5 +1,7 @@
 //! From a file to an assembled tour.
 
+use std::sync::Arc;
+
 use glam::UVec2;
 use rayon::prelude::*;
 
@@ -61,7 +63,7 @@ pub fn decode(bytes: &[u8]) -> Result<Baked, BakeError> {
             solution,
             plan: header.plan,
             scene,
-            maps,
+            maps: Arc::new(maps),
             recordings: Recordings::default(),
             remarks: header.remarks,
         },

@@ -5,7 +5,7 @@
 
 use std::path::PathBuf;
 
-use glam::UVec2;
+use glam::{UVec2, Vec2};
 
 use crate::picture::PicturePoint;
 use crate::tour::edit::{Edit, RegionAt};
@@ -107,10 +107,6 @@ pub enum Request {
     ShowPathAt(f64),
     /// Play the path from where it is shown, or stop.
     PlayPath(bool),
-    /// Let wind, water and bodies move in the tour, or stand still.
-    SetMotionPreview(bool),
-    /// Draw where the camera may fly, or not.
-    ShowSafeVolume(bool),
 }
 
 /// What the machine can propose when asked.
@@ -146,6 +142,8 @@ pub struct Out {
     pub requests: Vec<Request>,
     /// Whether the pointer is over the live tour, so that it may take the pointer and the keys of flight.
     pub pointer_over_tour: bool,
+    /// Where it is over the tour's image, in physical pixels from the upper left corner.
+    pub tour_pointer: Option<Vec2>,
     /// Whether keys go to a text or number that is being typed: the tour must not fly then.
     pub text_has_focus: bool,
     /// Size at which the live tour would be shown one to one, in physical pixels; zero where it is not shown.

@@ -94,7 +94,12 @@ fn desk_ui(ui: &mut Ui, studio: &mut Studio, work: &Work<'_>, out: &mut Out) {
             });
         }
         if let Some(rect) = tour {
-            ui.scope_builder(UiBuilder::new().id_salt("tour").max_rect(rect), |ui| tour_ui(ui, work, out));
+            ui.scope_builder(UiBuilder::new().id_salt("tour").max_rect(rect), |ui| {
+                tour_ui(ui, work, out);
+                if studio.step == Step::Motion && studio.safe_volume {
+                    panel::plan_ui(ui, rect, work);
+                }
+            });
         }
         ui.advance_cursor_after_rect(rect);
     });
@@ -130,6 +135,11 @@ fn tour_ui(ui: &mut Ui, work: &Work<'_>, out: &mut Out) {
         ui.memory_mut(Memory::stop_text_input);
     }
     out.pointer_over_tour = response.contains_pointer() || response.dragged();
+    let pointer = ui.ctx().pointer_latest_pos().filter(|_| out.pointer_over_tour);
+    out.tour_pointer = pointer.map(|at| {
+        let at = (at - rect.min) * scale;
+        glam::Vec2::new(at.x, at.y)
+    });
     match work.view.tour.image {
         Some(texture) => Image::new(SizedTexture::new(texture, rect.size())).paint_at(ui, rect),
         None => {

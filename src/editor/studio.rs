@@ -79,7 +79,7 @@ pub struct Studio {
     pub residuals_tenfold: bool,
     /// Whether the tour moves in the preview.
     pub motion_preview: bool,
-    /// Whether the camera's safe volume is drawn.
+    /// Whether a plan of where the camera may fly is drawn over the tour while the path is at work.
     pub safe_volume: bool,
     /// Where the path's time line stands, seconds.
     pub path_seconds: f64,
@@ -102,7 +102,7 @@ impl Default for Studio {
             snapping: true,
             residuals_tenfold: false,
             motion_preview: true,
-            safe_volume: false,
+            safe_volume: true,
             path_seconds: 0.0,
             in_gesture: false,
             gesture_canceled: false,

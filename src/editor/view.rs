@@ -6,6 +6,7 @@ use glam::UVec2;
 
 use crate::camera::CameraPose;
 use crate::picture::PicturePoint;
+use crate::scene::TourScene;
 use crate::solve::{Solution, SolveError};
 use crate::tour::Problem;
 use crate::tour::edit::{Draft, Edit, History};
@@ -27,6 +28,8 @@ pub struct View<'a> {
     pub masks: &'a [MaskView<'a>],
     /// The live tour.
     pub tour: TourView,
+    /// The planes of the live tour, once it is built.
+    pub scene: Option<&'a TourScene>,
     /// The latest solution or why there is none; `None` before the first one.
     ///
     /// In the document's pixels: where the picture is cropped, the crop's corner is to be added to the principal point.

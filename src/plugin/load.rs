@@ -4,7 +4,7 @@
 //! assets exist at start-up are shown before the first frame. When a changed file is broken, the last good tour stays.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use bevy::asset::{AssetEvent, AssetLoadFailedEvent};
 use bevy::camera::visibility::RenderLayers;
@@ -51,11 +51,14 @@ pub struct TourFailed {
 #[derive(Component)]
 struct BuiltFrom(AssetId<TourAsset>);
 
-/// A tour being built; dropped (replaced, or despawned with the tour), it stops the work at its next step.
-#[derive(Component)]
-struct Building {
+/// A tour being built, on its entity while that goes on; removed (or despawned with the tour), it stops the work at its
+/// next step.
+#[derive(Component, Debug)]
+pub struct TourBuilding {
     task: Task<Result<AssembledTour, AssembleError>>,
     wanted: Arc<AtomicBool>,
+    /// Thousandths.
+    done: Arc<AtomicU32>,
     stage: Stage,
 }
 
@@ -82,18 +85,35 @@ impl Stage {
     }
 }
 
-impl Building {
+impl TourBuilding {
+    /// The share that is done, 0 to 1.
+    #[must_use]
+    pub fn share_done(&self) -> f32 {
+        self.done.load(Ordering::Relaxed) as f32 / 1000.0
+    }
+
+    /// Whether the tour is shown already, and finer maps are made for it.
+    #[must_use]
+    pub fn is_refining(&self) -> bool {
+        self.stage == Stage::Refined
+    }
+
     fn start(source: &Arc<TourSource>, options: MapOptions, stage: Stage) -> Self {
         let source = Arc::clone(source);
         let wanted = Arc::new(AtomicBool::new(true));
-        let goes_on = Arc::clone(&wanted);
-        let task = AsyncComputeTaskPool::get()
-            .spawn(async move { assemble(&source, &options, &|_, _| goes_on.load(Ordering::Relaxed)) });
-        Self { task, wanted, stage }
+        let done = Arc::new(AtomicU32::new(0));
+        let (goes_on, told) = (Arc::clone(&wanted), Arc::clone(&done));
+        let task = AsyncComputeTaskPool::get().spawn(async move {
+            assemble(&source, &options, &|share, _| {
+                told.store((1000.0 * share) as u32, Ordering::Relaxed);
+                goes_on.load(Ordering::Relaxed)
+            })
+        });
+        Self { task, wanted, done, stage }
     }
 }
 
-impl Drop for Building {
+impl Drop for TourBuilding {
     fn drop(&mut self) {
         self.wanted.store(false, Ordering::Relaxed);
     }
@@ -162,10 +182,10 @@ fn start_building(
         match asset {
             TourAsset::Source(source, options) => {
                 let (stage, options) = Stage::first(options);
-                commands.entity(entity).try_insert(Building::start(source, options, stage));
+                commands.entity(entity).try_insert(TourBuilding::start(source, options, stage));
             }
             TourAsset::Built(_, built) => {
-                commands.entity(entity).try_remove::<Building>();
+                commands.entity(entity).try_remove::<TourBuilding>();
                 if let Ok(root) = roots.get(entity) {
                     finish(&mut commands, &mut assets, root, asset, Stage::Whole, Ok(Arc::clone(built)));
                 }
@@ -176,14 +196,14 @@ fn start_building(
 
 fn finish_building(
     mut commands: Commands,
-    mut building: Query<(Entity, &mut Building)>,
+    mut building: Query<(Entity, &mut TourBuilding)>,
     tours: Query<Root>,
     sources: Res<Assets<TourAsset>>,
     mut assets: TourAssets,
 ) {
     for (entity, mut building) in &mut building {
         let Some(built) = check_ready(&mut building.task) else { continue };
-        commands.entity(entity).try_remove::<Building>();
+        commands.entity(entity).try_remove::<TourBuilding>();
         if let Ok(root) = tours.get(entity)
             && let Some(asset) = sources.get(&root.1.0)
         {
@@ -234,7 +254,7 @@ fn finish(
     if let TourAsset::Source(source, options) = asset
         && preview
     {
-        commands.entity(entity).try_insert(Building::start(source, *options, Stage::Refined));
+        commands.entity(entity).try_insert(TourBuilding::start(source, *options, Stage::Refined));
     }
     commands.trigger(TourReady { entity, preview });
 }

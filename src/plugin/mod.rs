@@ -8,6 +8,8 @@ mod camera;
 mod load;
 mod material;
 mod motion;
+#[cfg(feature = "editor")]
+mod rearrange;
 mod records;
 mod sort;
 mod spawn;
@@ -16,10 +18,13 @@ mod views;
 
 pub use asset::{BakedTourLoadError, TourAsset, TourLoadError};
 pub use camera::{Guide, TourCamera, TourCameraState, TourPath, TourProjection};
-pub use load::{PictureTour, TourFailed, TourReady};
+pub use load::{PictureTour, TourBuilding, TourFailed, TourReady};
 pub use material::ColorPolicy;
 pub use motion::{ObjectMotion, TouchWater, TourMotion, TourWeather};
+#[cfg(feature = "editor")]
+pub(crate) use rearrange::Rearranging;
 pub use spawn::{SolvedTour, TourPart};
+pub use stir::TourPointer;
 
 use bevy::asset::AssetEventSystems;
 use bevy::prelude::*;

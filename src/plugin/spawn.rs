@@ -47,6 +47,8 @@ pub(super) struct ShownTour {
     pub parts: Vec<Entity>,
     /// Per part of `parts` its material, and that of its depth pass; the water's is last.
     pub materials: Vec<[Handle<TourMaterial>; 2]>,
+    /// Per part of `parts` its mesh.
+    pub meshes: Vec<Handle<Mesh>>,
     pub components: usize,
     /// The moving water.
     pub waves: Handle<Image>,
@@ -120,7 +122,8 @@ pub(super) fn show(
     }
     let image = assets.images.add(records.image());
     let waves = assets.images.add(waves_image());
-    let mut spawner = Spawner { commands, root, layers, parts: Vec::new(), materials: Vec::new() };
+    let mut spawner =
+        Spawner { commands, root, layers, parts: Vec::new(), materials: Vec::new(), meshes: Vec::new() };
 
     for (index, component) in scene.components.iter().enumerate() {
         let map = atlas::trimmed(&tour.maps.components[index].texture, picture, largest);
@@ -177,7 +180,7 @@ pub(super) fn show(
         spawner.part("water", TourPart::Water, mesh, material, depth, false);
     }
     let components = scene.components.len();
-    let Spawner { parts, materials, .. } = spawner;
+    let Spawner { parts, materials, meshes, .. } = spawner;
     // Somebody may have despawned the root in this very frame; its parts must not outlive it.
     let orphans = parts.clone();
     commands.queue(move |world: &mut World| {
@@ -187,7 +190,7 @@ pub(super) fn show(
             }
         }
     });
-    let shown = ShownTour { views: Vec::new(), records, image, parts, materials, components, waves };
+    let shown = ShownTour { views: Vec::new(), records, image, parts, materials, meshes, components, waves };
     commands.entity(root).try_insert((SolvedTour(tour), shown));
 }
 
@@ -238,6 +241,7 @@ struct Spawner<'a, 'w, 's> {
     layers: Option<&'a RenderLayers>,
     parts: Vec<Entity>,
     materials: Vec<[Handle<TourMaterial>; 2]>,
+    meshes: Vec<Handle<Mesh>>,
 }
 
 impl Spawner<'_, '_, '_> {
@@ -250,6 +254,7 @@ impl Spawner<'_, '_, '_> {
         depth: Handle<TourMaterial>,
         unbounded: bool,
     ) -> Entity {
+        self.meshes.push(mesh.clone());
         let bundle = (Mesh3d(mesh), Transform::default(), Visibility::default());
         let shown = self
             .commands
@@ -287,14 +292,14 @@ impl Spawner<'_, '_, '_> {
 }
 
 /// Two triangles through four corners: low left, low right, high left, high right.
-fn quad(corners: [Vec3; 4]) -> Mesh {
+pub(super) fn quad(corners: [Vec3; 4]) -> Mesh {
     Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::default())
         .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, corners.map(|corner| corner.to_array()).to_vec())
         .with_inserted_indices(Indices::U16(vec![0, 1, 2, 2, 1, 3]))
 }
 
 /// The corners of a surface in the tour's space; infinity fills the view in clip space.
-fn corners(surface: &Surface) -> [Vec3; 4] {
+pub(super) fn corners(surface: &Surface) -> [Vec3; 4] {
     match surface {
         Surface::Wall(wall) => {
             let [[a, b], [c, d]] = wall.rise.map(|y| wall.span.map(|s| wall.point(s, y).as_vec3()));

@@ -1,5 +1,6 @@
 //! Pointer and finger on the water: a drag that begins there stirs it, any other one looks around.
 
+use bevy::camera::RenderTarget;
 use bevy::input::touch::Touches;
 use bevy::math::DVec2;
 use bevy::prelude::*;
@@ -12,6 +13,14 @@ use super::views::affine;
 use crate::camera::Ray;
 use crate::scene::Placement;
 use crate::scene::TourScene;
+
+/// Where the pointer is over the image that a [`TourCamera`] draws into, for cameras that draw into no window: a game that
+/// shows that image somewhere knows. `None` while it is elsewhere.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct TourPointer(
+    /// From the image's upper left corner, in its pixels.
+    pub Option<Vec2>,
+);
 
 /// What is being stirred; while it is, that pointer turns no camera.
 #[derive(Resource, Clone, Copy, Debug, Default)]
@@ -54,7 +63,10 @@ pub(super) fn stir(
     buttons: Option<Res<ButtonInput<MouseButton>>>,
     fingers: Option<Res<Touches>>,
     windows: Query<&Window, With<PrimaryWindow>>,
-    cameras: Query<(Entity, &TourCamera, &TourCameraState, &Camera, &GlobalTransform)>,
+    cameras: Query<(
+        (Entity, &TourCamera, &TourCameraState),
+        (&Camera, &GlobalTransform, Option<&RenderTarget>, Option<&TourPointer>),
+    )>,
     tours: Query<(&SolvedTour, &TourMotion, &GlobalTransform)>,
     mut touches: MessageWriter<TouchWater>,
     time: Res<Time>,
@@ -80,11 +92,13 @@ pub(super) fn stir(
     if stirring.0.is_some_and(|stir| stir.pointer != pointer) {
         stirring.0 = None;
     }
-    for (entity, camera, state, settings, view) in &cameras {
+    for ((entity, camera, state), (settings, view, target, own)) in &cameras {
         let goes_on = stirring.0.filter(|stir| stir.camera == entity);
         if !camera.listens || !(begins || goes_on.is_some()) {
             continue;
         }
+        let in_window = matches!(target, None | Some(RenderTarget::Window(_))).then_some(position);
+        let Some(position) = own.map_or(in_window, |own| own.0) else { continue };
         let Some(tour) = state.tour() else { continue };
         let Ok((solved, motion, place)) = tours.get(tour) else { continue };
         let Ok(ray) = settings.viewport_to_world(view, position) else { continue };

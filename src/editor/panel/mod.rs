@@ -6,6 +6,7 @@ mod motion;
 mod objects;
 mod pairs;
 mod path;
+mod plan;
 mod region;
 mod report;
 mod suggestions;
@@ -13,6 +14,7 @@ mod timeline;
 mod water;
 mod weather;
 
+pub(super) use plan::plan_ui;
 pub(super) use timeline::timeline_ui;
 
 use crate::tour::edit::PointAt;

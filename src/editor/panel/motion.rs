@@ -11,7 +11,7 @@ use super::super::egui::Ui;
 use super::super::field::{self, Number};
 use super::super::text::with;
 use super::super::work::Work;
-use super::super::{Out, Request, Studio};
+use super::super::{Out, Studio};
 use super::objects::list_ui;
 use super::{point_ui, tool_button};
 
@@ -42,7 +42,6 @@ pub(super) fn motion_ui(ui: &mut Ui, studio: &mut Studio, work: &Work<'_>, out: 
     let t = work.text;
     if let Some(wanted) = field::tick(ui, t.motion.preview, studio.motion_preview) {
         studio.motion_preview = wanted;
-        out.request(Request::SetMotionPreview(wanted));
     }
     field::title(ui, t.motion.objects);
     if work.tour.objects.is_empty() {

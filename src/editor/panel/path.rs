@@ -36,7 +36,6 @@ pub(super) fn path_ui(ui: &mut Ui, studio: &mut Studio, work: &Work<'_>, out: &m
     });
     if let Some(wanted) = field::tick(ui, t.path.safe_volume, studio.safe_volume) {
         studio.safe_volume = wanted;
-        out.request(Request::ShowSafeVolume(wanted));
     }
     for (index, keyframe) in keyframes.iter().enumerate() {
         let header = CollapsingHeader::new(with(t.path.keyframe, index + 1)).id_salt(("keyframe", index));

@@ -1,17 +1,19 @@
 //! What the draft amounts to now: its problems, its solution, and the tour that is shown of it.
 
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::DVec2;
 
 use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
 
 use super::Session;
-use crate::assemble::{TourSource, annotations};
+use crate::assemble::{PlacedTour, TourSource, place, read_beside};
+use crate::motion::Recordings;
 use crate::picture::{DecodedPicture, PicturePoint};
-use crate::solve::{Solution, SolveError, solve};
+use crate::solve::{Solution, SolveError};
 use crate::tour::edit::Draft;
-use crate::tour::{Problem, RelativePath, Tour};
+use crate::tour::{Motion, Problem, Problems, RelativePath, Sea, Tour};
 
 /// Seconds without an edit after which the tour is built anew.
 const QUIET_SECONDS: f64 = 0.35;
@@ -22,7 +24,17 @@ pub(super) struct Checked {
     pub(super) revision: u64,
     pub(super) problems: Vec<Problem>,
     pub(super) solved: Option<Result<Solution, SolveError>>,
+    placed: Option<Arc<PlacedTour>>,
     source: Option<Arc<TourSource>>,
+}
+
+/// What is to be shown of the draft.
+#[derive(Debug)]
+pub(super) enum News {
+    /// Its planes, while it is being changed.
+    Placed(Arc<PlacedTour>),
+    /// All of it.
+    Whole(Arc<TourSource>),
 }
 
 /// The check at work, and when the draft changed last.
@@ -32,35 +44,41 @@ pub(super) struct Checking {
     seen: Option<u64>,
     changed_at: f64,
     shown: Option<u64>,
+    /// Recordings that were read, and what they are of.
+    recorded: Arc<Mutex<Option<(Recorded, Recordings)>>>,
 }
 
 impl Session {
-    /// Keeps the check up to date; gives the tour to be shown when there is another one and nobody is at work.
-    pub(super) fn check(&mut self, now: f64) -> Option<Arc<TourSource>> {
+    /// Keeps the check up to date; gives its planes when it is new, and all of it once nobody has changed it for a moment.
+    pub(super) fn check(&mut self, now: f64) -> Option<News> {
         let desk = self.desk.as_ref()?;
         let revision = desk.history().revision();
         let checking = &mut self.checking;
         if checking.seen != Some(revision) {
             (checking.seen, checking.changed_at) = (Some(revision), now);
         }
+        let mut news = None;
         if let Some(done) = checking.running.as_mut().and_then(check_ready) {
             checking.running = None;
+            news = done.placed.clone().filter(|_| checking.shown.is_some()).map(News::Placed);
             self.checked = done;
         }
         let is_old = self.checked.revision != revision || self.checked.is_empty();
         if is_old && checking.running.is_none() {
             let (draft, picture) = (desk.draft().clone(), desk.picture().cloned());
+            let folder = desk.path().parent().unwrap_or(Path::new("")).to_owned();
+            let recorded = RecordedFiles { folder, read: Arc::clone(&checking.recorded) };
             checking.running = Some(
                 AsyncComputeTaskPool::get()
-                    .spawn(async move { checked(revision, &draft, picture.as_deref()) }),
+                    .spawn(async move { checked(revision, &draft, picture.as_deref(), &recorded) }),
             );
         }
         let is_quiet = now - checking.changed_at >= QUIET_SECONDS && !desk.history().in_gesture();
         if is_old || !is_quiet || checking.shown == Some(revision) {
-            return None;
+            return news;
         }
         checking.shown = Some(revision);
-        self.checked.source.clone()
+        self.checked.source.clone().map(News::Whole)
     }
 }
 
@@ -70,8 +88,13 @@ impl Checked {
     }
 }
 
-/// Checks and solves a draft.
-fn checked(revision: u64, draft: &Draft, picture: Option<&DecodedPicture>) -> Checked {
+/// Checks, solves and places a draft.
+fn checked(
+    revision: u64,
+    draft: &Draft,
+    picture: Option<&DecodedPicture>,
+    recorded: &RecordedFiles,
+) -> Checked {
     let mut checked = Checked { revision, ..Checked::default() };
     let tour = match Tour::check(draft.tour.clone()) {
         Ok(tour) => tour,
@@ -81,15 +104,47 @@ fn checked(revision: u64, draft: &Draft, picture: Option<&DecodedPicture>) -> Ch
         }
     };
     let Some(picture) = picture else { return checked };
-    match TourSource::of(&tour, picture.clone(), &|place, file| mask_of(draft, place, file)) {
+    let source = TourSource::of(&tour, picture.clone(), &|place, file| mask_of(draft, place, file));
+    match source.and_then(|source| Ok(TourSource { recordings: recorded.of(&tour)?, ..source })) {
         Ok(source) => {
-            checked.solved =
-                Some(solve(&annotations(&source)).map(|solution| in_document(solution, &tour, &source)));
+            let (solved, placed) = match place(&source) {
+                Ok(placed) => (Ok(placed.solution.clone()), Some(Arc::new(placed))),
+                Err(error) => (Err(error), None),
+            };
+            checked.solved = Some(solved.map(|solution| in_document(solution, &tour, &source)));
+            checked.placed = placed;
             checked.source = Some(Arc::new(source));
         }
         Err(problems) => checked.problems = problems.0,
     }
     checked
+}
+
+/// The files of recorded water and bodies, read once.
+#[derive(Clone, Debug)]
+struct RecordedFiles {
+    folder: PathBuf,
+    read: Arc<Mutex<Option<(Recorded, Recordings)>>>,
+}
+
+/// What of a tour is recorded.
+type Recorded = (PathBuf, Sea, Vec<Motion>);
+
+impl RecordedFiles {
+    fn of(&self, tour: &Tour) -> Result<Recordings, Problems> {
+        let motions = tour.objects.iter().map(|object| &object.motion);
+        let motions = motions.filter(|motion| matches!(motion, Motion::Recorded(_))).cloned().collect();
+        let wanted = (self.folder.clone(), tour.waves.sea.clone(), motions);
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        match &*read {
+            Some((recorded, recordings)) if *recorded == wanted => Ok(recordings.clone()),
+            _ => {
+                let recordings = Recordings::read(tour, &|file| read_beside(&self.folder, file))?;
+                *read = Some((wanted, recordings.clone()));
+                Ok(recordings)
+            }
+        }
+    }
 }
 
 fn mask_of(draft: &Draft, place: &str, file: &RelativePath) -> Result<crate::picture::Mask, Box<Problem>> {

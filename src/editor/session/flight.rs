@@ -6,20 +6,24 @@ use bevy::camera::RenderTarget;
 use bevy::prelude::*;
 
 use super::Session;
-use crate::assemble::TourSource;
+use crate::assemble::{PlacedTour, TourSource};
 use crate::camera::{CameraPose, Fit};
-use crate::editor::Request;
-use crate::maps::MapOptions;
+use crate::editor::text::Text;
+use crate::editor::{Request, Task};
 use crate::plugin::{
-    Guide, ObjectMotion, PictureTour, SolvedTour, TourAsset, TourCamera, TourCameraState, TourMotion,
-    TourPart, TourWeather,
+    Guide, ObjectMotion, PictureTour, Rearranging, TourAsset, TourBuilding, TourCamera, TourCameraState,
+    TourMotion, TourPart, TourPointer, TourReady, TourWeather,
 };
+use crate::scene::TourScene;
 use crate::tour::edit::Edit;
 use crate::tour::{CameraPath, Tour};
 
 /// The tour that the studio shows.
-#[derive(Component, Debug)]
-pub(super) struct Shown;
+#[derive(Component, Debug, Default)]
+pub(super) struct Shown {
+    /// Whether its planes went to where newer marks put them; what moves still stands at the old place.
+    is_rearranged: bool,
+}
 
 /// The camera that flies there.
 #[derive(Component, Debug)]
@@ -42,9 +46,9 @@ pub(super) struct Flight<'w, 's> {
     assets: ResMut<'w, Assets<TourAsset>>,
     cameras: Query<'w, 's, (Entity, &'static mut TourCamera, &'static mut TourCameraState), With<Flying>>,
     lenses: Query<'w, 's, &'static mut Camera, With<Flying>>,
-    built: Query<'w, 's, (), (With<Shown>, Changed<SolvedTour>)>,
+    planes: Rearranging<'w, 's>,
     drawn: Local<'s, Drawn>,
-    tours: Query<'w, 's, (Entity, &'static PictureTour), With<Shown>>,
+    tours: Query<'w, 's, (Entity, &'static PictureTour, &'static mut Shown, Option<&'static TourBuilding>)>,
     motions: Query<'w, 's, (&'static mut TourMotion, &'static mut TourWeather), With<Shown>>,
     parts: Query<'w, 's, (&'static Name, &'static mut ObjectMotion, &'static ChildOf), With<TourPart>>,
 }
@@ -52,19 +56,39 @@ pub(super) struct Flight<'w, 's> {
 impl Flight<'_, '_> {
     /// Shows a tour in place of what is shown; the camera stays where it is.
     pub(super) fn show(&mut self, source: Arc<TourSource>) {
-        let asset = TourAsset::Source(source, MapOptions::PREVIEW);
-        if let Some((_, shown)) = self.tours.iter().next() {
+        let asset = TourAsset::from(source);
+        if let Some((_, shown, ..)) = self.tours.iter().next() {
             // It was made here, so the handle is its own.
             let _ = self.assets.insert(&shown.0, asset);
         } else {
             let handle = self.assets.add(asset);
-            self.commands.spawn((PictureTour(handle), Shown));
+            self.commands.spawn((PictureTour(handle), Shown::default()));
         }
+    }
+
+    /// Moves the planes of what is shown to where newer marks put them; textures follow when all is built anew.
+    pub(super) fn rearrange(&mut self, placed: &PlacedTour) {
+        for (entity, _, mut shown, _) in &mut self.tours {
+            shown.is_rearranged |= self.planes.place(entity, placed);
+        }
+    }
+
+    /// The planes of what is shown.
+    pub(super) fn scene(&self) -> Option<&TourScene> {
+        self.tours.iter().find_map(|(entity, ..)| self.planes.scene(entity))
+    }
+
+    /// What is still being built.
+    pub(super) fn tasks(&self, text: &Text) -> Option<Task> {
+        let building = self.tours.iter().find_map(|(.., building)| building)?;
+        let words = &text.work;
+        let title = if building.is_refining() { words.refining } else { words.building };
+        Some(Task { id: 0, title: title.to_owned(), done: Some(building.share_done()), can_cancel: false })
     }
 
     /// Shows no tour.
     pub(super) fn hide(&mut self) {
-        for (entity, _) in &self.tours {
+        for (entity, ..) in &self.tours {
             self.commands.entity(entity).try_despawn();
         }
     }
@@ -89,7 +113,7 @@ impl Flight<'_, '_> {
     pub(super) fn draw_while(&mut self, is_busy: bool) {
         let pose = self.flown();
         let moves = self.motions.iter().any(|(motion, _)| !motion.still && !motion.simulation().is_still());
-        if is_busy || moves || pose != self.drawn.pose || !self.built.is_empty() {
+        if is_busy || moves || pose != self.drawn.pose || self.planes.have_changed() {
             (self.drawn.pose, self.drawn.frames_left) = (pose, FRAMES_AFTER);
         }
         let draws = self.drawn.frames_left > 0;
@@ -111,6 +135,23 @@ impl Flight<'_, '_> {
             if listens && camera.guide == Guide::Still {
                 camera.guide = Guide::Visitor;
             }
+        }
+    }
+
+    /// Lets nothing move, or lets it move unless it would not be where its planes are.
+    pub(super) fn hold_still(&mut self, is_wanted: bool) {
+        let still = is_wanted || self.tours.iter().any(|(_, _, shown, _)| shown.is_rearranged);
+        for (mut motion, _) in &mut self.motions {
+            if motion.still != still {
+                motion.still = still;
+            }
+        }
+    }
+
+    /// Where the pointer is over the tour's image, in its pixels.
+    pub(super) fn point_at(&mut self, at: Option<Vec2>) {
+        for (camera, ..) in &self.cameras {
+            self.commands.entity(camera).insert(TourPointer(at));
         }
     }
 
@@ -148,11 +189,6 @@ impl Flight<'_, '_> {
                     }
                 }
             }
-            Request::SetMotionPreview(moves) => {
-                for (mut motion, _) in &mut self.motions {
-                    motion.still = !moves;
-                }
-            }
             // Wind and motions act at once; all else waits for the tour to be built anew.
             Request::Edit(Edit::Wind(wind)) => {
                 for (_, mut weather) in &mut self.motions {
@@ -179,6 +215,13 @@ impl Flight<'_, '_> {
             camera.guide = Guide::Still;
             state.pose = Some(pose);
         }
+    }
+}
+
+/// Notes that the planes are where everything else is, once a tour is built.
+pub(super) fn take_built(ready: On<TourReady>, mut tours: Query<&mut Shown>) {
+    if let Ok(mut shown) = tours.get_mut(ready.entity) {
+        shown.is_rearranged = false;
     }
 }
 

@@ -16,13 +16,15 @@ use bevy::prelude::*;
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 use egui_file_dialog::FileDialog;
 
-use self::check::{Checked, Checking};
+use self::check::{Checked, Checking, News};
 use self::files::Asked;
 use self::flight::Flight;
 use self::job::Job;
 use self::marks::Tracing;
 use self::textures::Textures;
-use super::{DeskView, Message, Question, Request, Studio, Suggestion, TourView, View, egui, studio_ui};
+use super::{
+    DeskView, Message, Question, Request, Studio, Suggestion, Task, TourView, View, egui, studio_ui,
+};
 use crate::plugin::PictureTourSystems;
 use crate::tour::Tour;
 use crate::tour::edit::Edit;
@@ -35,7 +37,7 @@ pub struct EditorPlugin;
 
 impl Plugin for EditorPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<Textures>();
+        app.init_resource::<Textures>().add_observer(flight::take_built);
         app.add_systems(
             Update,
             (take_dropped, work).chain().before(PictureTourSystems::Input).run_if(resource_exists::<Session>),
@@ -211,8 +213,10 @@ fn work(mut session: ResMut<Session>, mut flight: Flight, time: Res<Time<Real>>)
     }
     session.take_finished();
     session.autosave(now);
-    if let Some(source) = session.check(now) {
-        flight.show(source);
+    match session.check(now) {
+        Some(News::Placed(placed)) => flight.rearrange(&placed),
+        Some(News::Whole(source)) => flight.show(source),
+        None => {}
     }
     if session.desk.is_none() {
         flight.hide();
@@ -235,7 +239,8 @@ fn show(
         egui::UiBuilder::new().layer_id(egui::LayerId::background()).max_rect(context.viewport_rect()),
     );
     let mut studio = std::mem::take(&mut session.studio);
-    let (tasks, masks) = (session.tasks(), textures.masks());
+    let tasks: Vec<Task> = flight.tasks(studio.language.text()).into_iter().chain(session.tasks()).collect();
+    let masks = textures.masks();
     let mut view = View {
         desk: session.desk.as_ref().map(|desk| DeskView {
             draft: desk.draft(),
@@ -245,6 +250,7 @@ fn show(
         }),
         picture: textures.picture(&session),
         masks: &masks,
+        scene: flight.scene(),
         tour: TourView { image: textures.tour(), flown: flight.flown(), playing: flight.playing() },
         solved: session.checked.solved.as_ref().map(|solved| solved.as_ref()),
         problems: &session.checked.problems,
@@ -266,6 +272,8 @@ fn show(
         flight.draw_into(image);
     }
     let is_busy = session.question.is_some() || session.dialog.is_some();
+    flight.hold_still(!session.studio.motion_preview);
+    flight.point_at(out.tour_pointer);
     flight.listen(out.pointer_over_tour && !out.text_has_focus && !is_busy);
     let changes = out.edits().next().is_some();
     for request in out.requests {

@@ -81,6 +81,8 @@ texts! {
         growing: "Growing the region",
         outlining: "Finding the outline",
         looking: "Looking for a reflection",
+        building: "Building the tour",
+        refining: "Refining the tour",
         drafted: "A first draft was made from the picture alone.",
         drafted_advice: "The lamps show what to mend. Undo takes it all back.",
         nothing_found: "Nothing to propose",

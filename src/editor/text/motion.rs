@@ -71,6 +71,7 @@ texts! {
         take_hint: "Adds the view that is flown now at the path's end",
         home: "Fly home",
         safe_volume: "Show where the camera may fly",
+        outside: "{} outside of what holds",
         keyframe: "Keyframe {}",
         fly_to: "Fly to",
         replace: "Replace",

@@ -11,6 +11,7 @@ use bevy::render::render_resource::{
 };
 use bevy::shader::{ShaderRef, load_shader_library};
 
+use crate::camera::PinholeCamera;
 use crate::maps::Layer;
 use crate::maps::Tint;
 use crate::motion::Moves;
@@ -60,24 +61,32 @@ const SOLID: f32 = 0.5;
 impl TourUniform {
     /// The uniform of component `index` with its texture map and the map's texels per picture pixel; the water has none.
     pub(super) fn new(scene: &TourScene, tint: &Tint, index: usize, map: Option<(&Layer, f32)>) -> Self {
-        let camera = &scene.camera;
-        let matrix = camera.picture_from_world_direction();
-        let eye = camera.pose.position.as_vec3();
         let infinite = map.is_some() && scene.components[index].surface == Surface::Infinity;
         let (layer, scale) = map.map_or((Vec4::ZERO, 1.0), |(layer, scale)| {
             let (origin, size) = (layer.origin.as_vec2(), layer.size.as_vec2());
             (Vec4::new(origin.x, origin.y, size.x, size.y), scale)
         });
-        Self {
-            picture_from_x: matrix.x_axis.as_vec3().extend(0.0),
-            picture_from_y: matrix.y_axis.as_vec3().extend(0.0),
-            picture_from_z: matrix.z_axis.as_vec3().extend(0.0),
-            eye: eye.extend(index as f32),
+        let uniform = Self {
+            picture_from_x: Vec4::ZERO,
+            picture_from_y: Vec4::ZERO,
+            picture_from_z: Vec4::ZERO,
+            eye: Vec3::ZERO.extend(index as f32),
             layer,
-            flags: Vec4::new(f32::from(u8::from(infinite)), -1.0, scale, camera.intrinsics.focal_px as f32),
+            flags: Vec4::new(f32::from(u8::from(infinite)), -1.0, scale, 0.0),
             water: Vec3::from(tint.own_color()).extend(tint.strength),
             ripples: Vec4::new(tint.slope, 0.0, 0.0, 0.0),
-        }
+        };
+        uniform.taken_by(&scene.camera)
+    }
+
+    /// The same for a picture that another camera took.
+    pub(super) fn taken_by(mut self, camera: &PinholeCamera) -> Self {
+        let matrix = camera.picture_from_world_direction();
+        [self.picture_from_x, self.picture_from_y, self.picture_from_z] =
+            [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.as_vec3().extend(0.0));
+        self.eye = camera.pose.position.as_vec3().extend(self.eye.w);
+        self.flags.w = camera.intrinsics.focal_px as f32;
+        self
     }
 
     /// The same for the pass that writes depth only.
