@@ -22,7 +22,7 @@ settle() {
         before=$now
         now=$(import -window root -depth 8 rgb:- | cksum)
         [ "$now" = "$before" ] && return
-        sleep 0.3
+        sleep 0.7
     done
 }
 # Frames on a software GPU take a moment: whatever is pressed stays down for one.
@@ -39,14 +39,16 @@ await() { # seconds, what, command
     shift 2
     until "$@"; do
         left=$((left - 1))
-        [ "$left" -gt 0 ] || { shot failed; fail "waited in vain for $what"; }
+        [ "$left" -gt 0 ] || { shot failed || true; fail "waited in vain for $what"; }
         sleep 1
     done
 }
 
 Xvfb $DISPLAY -screen 0 1440x860x24 >/dev/null 2>&1 &
 screen=$!
+studio=
 trap 'kill $studio $screen 2>/dev/null || true; rm -rf "$work"' EXIT
+await 20 "the virtual screen" sh -c "xdotool getmouselocation >/dev/null 2>&1"
 cp "$root/tests/data/a1/input.png" "$work/pond.png"
 began=$SECONDS
 "$program" edit "$work/pond.png" >"$out/log" 2>&1 &
@@ -77,8 +79,8 @@ press 5
 shot 5_report
 control s
 await 20 "the saved tour" test -f "$work/pond.tour.ron"
-control q || true
-sleep 2
+
+cp -r "$work/pond.tour.ron" "$work/masks" "$out/"
 
 # What was made: a sound tour, its horizon and pairs where the world has them, and a first view that is the picture.
 "$program" check "$work/pond.tour.ron" >"$out/check.txt" || fail "the tour has problems"

@@ -151,6 +151,8 @@ impl TourSource {
         let mut region = |place: &str, whole: &Region, used: &Region| match (whole, used) {
             (Region::Mask(file), _) => {
                 let mask = mask(place, file);
+                // One that was drawn on the same picture at another size.
+                let mask = mask.map(|mask| if mask.size() == size { mask } else { mask.resized_to(size) });
                 mask.map(|mask| cropped(&mask, rect)).map_err(|problem| problems.push(*problem)).ok()
             }
             (_, Region::Polygon(corners)) => Mask::from_polygon(rect.size(), corners)

@@ -4,6 +4,7 @@
 //! of its arguments; two half steps are one whole step (where it walks while the wanted yaw turns: nearly so).
 
 use std::array;
+use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
@@ -129,9 +130,7 @@ impl Visitor {
         let limits = limits(settings, home, bounds);
         let [turn, tilt] = [3, 4].map(|i| soften(now[i], limits[i]));
         let (yaw, pitch, roll) = home.angles();
-        let [_, right] = level(yaw);
-        let sway = settings.sway * settings.scale * (DVec3::Y * tilt - right * turn);
-        let sway = if sway.is_finite() { sway } else { DVec3::ZERO };
+        let sway = sway(settings, yaw, turn, tilt);
         let position = DVec3::from_array(array::from_fn(|i| {
             let (home, offset) = (home.position[i], soften(now[i] + sway[i], limits[i]));
             // Rounding must not lead out.
@@ -139,6 +138,32 @@ impl Visitor {
         }));
         let pitch = (pitch + tilt).max(pitch.min(-STEEPEST)).min(pitch.max(STEEPEST));
         CameraPose::from_angles(position, yaw + turn, pitch, roll)
+    }
+
+    /// The visitor who rests at a camera's pose, or as near to it as the bounds let one come; roll is `home`'s.
+    #[must_use]
+    pub fn at(
+        camera: &CameraPose,
+        settings: &VisitorSettings,
+        home: &CameraPose,
+        bounds: [DVec3; 2],
+    ) -> Self {
+        let limits = limits(settings, home, bounds);
+        let ((yaw, pitch, _), (home_yaw, home_pitch, _)) = (camera.angles(), home.angles());
+        let turn = (yaw - home_yaw + PI).rem_euclid(2.0 * PI) - PI;
+        let angles = [turn, pitch - home_pitch];
+        let [turn, tilt] = array::from_fn(|i| angles[i].max(-limits[3 + i][0]).min(limits[3 + i][1]));
+        let sway = sway(settings, home_yaw, turn, tilt);
+        let offset = camera.position - home.position;
+        let axes = array::from_fn(|i| {
+            let now = match i {
+                0..3 => harden(offset[i], limits[i]) - sway[i],
+                3 => harden(turn, limits[3]),
+                _ => harden(tilt, limits[4]),
+            };
+            Glide { wanted: known(now), now: known(now), speed: 0.0 }
+        });
+        Self { axes, homing: false }
     }
 
     /// Whether the visitor is on the way home.
@@ -211,6 +236,13 @@ fn rates(
     [walk.x, walk.y, walk.z, look[0], look[1]].map(|rate| within(rate, 1e12))
 }
 
+/// How far a look aside and up shifts the camera of a visitor whose home looks along `yaw`.
+fn sway(settings: &VisitorSettings, yaw: f64, turn: f64, tilt: f64) -> DVec3 {
+    let [_, right] = level(yaw);
+    let sway = settings.sway * settings.scale * (DVec3::Y * tilt - right * turn);
+    if sway.is_finite() { sway } else { DVec3::ZERO }
+}
+
 /// `x`, and 0 for what is no number.
 fn known(x: f64) -> f64 {
     if x.is_nan() { 0.0 } else { x }
@@ -228,6 +260,14 @@ fn soften(x: f64, [down, up]: [f64; 2]) -> f64 {
     let (free, soft) = ((1.0 - SOFT) * reach, SOFT * reach);
     let over = x.abs() - free;
     if over > 0.0 { (free + soft * (1.0 - (-over / soft).exp())).copysign(x) } else { x }
+}
+
+/// What [`soften`] makes to `y`; nearly the limit for what lies beyond it.
+fn harden(y: f64, [down, up]: [f64; 2]) -> f64 {
+    let reach = if y < 0.0 { down } else { up };
+    let (free, soft) = ((1.0 - SOFT) * reach, SOFT * reach);
+    let over = (y.abs() - free) / soft.max(1e-12);
+    if over > 0.0 { (free - soft * (1.0 - over).max(1e-3).ln()).min(BEYOND * reach).copysign(y) } else { y }
 }
 
 #[cfg(test)]

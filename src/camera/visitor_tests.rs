@@ -203,3 +203,26 @@ fn a_home_at_or_beyond_the_bounds_is_still_home() {
         assert!(position.x >= 0.3 && position.y >= 1.8 && position.z <= 0.2, "{position} is outside");
     }
 }
+
+#[test]
+fn a_visitor_who_takes_over_stands_where_the_camera_stood() {
+    let settings = VisitorSettings::default();
+    let poses = [
+        pose(&frames(Visitor::default(), wish(), 90)),
+        pose(&frames(frames(Visitor::default(), look(0.02, -0.01), 200), wish(), 300)),
+        CameraPose::from_angles(DVec3::new(-1.2, 2.2, -3.0), -0.2, 0.1, 0.03),
+    ];
+    for there in poses {
+        let found = pose(&Visitor::at(&there, &settings, &home(), BOUNDS));
+        assert!(
+            found.position.distance(there.position) < 1e-3,
+            "{} is not {}",
+            found.position,
+            there.position
+        );
+        assert!(found.rotation.angle_between(there.rotation) < 1e-3, "it looks elsewhere");
+    }
+    assert_eq!(Visitor::at(&home(), &settings, &home(), BOUNDS), Visitor::default());
+    let outside = CameraPose::from_angles(DVec3::new(50.0, -3.0, f64::NAN), 2.0, -1.0, 0.0);
+    assert_inside(&Visitor::at(&outside, &settings, &home(), BOUNDS));
+}

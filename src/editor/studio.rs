@@ -113,6 +113,12 @@ impl Default for Studio {
 }
 
 impl Studio {
+    /// Lays down what belongs to the document that was open before.
+    pub fn begin(&mut self) {
+        self.canvas = Canvas::default();
+        (self.object, self.path_seconds) = (None, 0.0);
+    }
+
     /// Goes to a step; what was half drawn or selected in another one is let go.
     pub fn go_to(&mut self, step: Step) {
         if step != self.step {

@@ -104,13 +104,25 @@ impl TourBuilding {
         let done = Arc::new(AtomicU32::new(0));
         let (goes_on, told) = (Arc::clone(&wanted), Arc::clone(&done));
         let task = AsyncComputeTaskPool::get().spawn(async move {
-            assemble(&source, &options, &|share, _| {
-                told.store((1000.0 * share) as u32, Ordering::Relaxed);
-                goes_on.load(Ordering::Relaxed)
-            })
+            let build = || {
+                assemble(&source, &options, &|share, _| {
+                    told.store((1000.0 * share) as u32, Ordering::Relaxed);
+                    goes_on.load(Ordering::Relaxed)
+                })
+            };
+            match unhurried().filter(|_| stage == Stage::Refined) {
+                Some(threads) => threads.install(build),
+                None => build(),
+            }
         });
         Self { task, wanted, done, stage }
     }
+}
+
+/// Threads for work that nobody waits for: one core is left to what is shown. `None` where there are no threads.
+fn unhurried() -> Option<rayon::ThreadPool> {
+    let cores = std::thread::available_parallelism().ok()?.get();
+    rayon::ThreadPoolBuilder::new().num_threads(cores.saturating_sub(1).max(1)).build().ok()
 }
 
 impl Drop for TourBuilding {
@@ -134,6 +146,7 @@ type Root = (
     &'static ColorPolicy,
     Option<&'static RenderLayers>,
     Option<&'static ShownTour>,
+    Option<&'static TourWeather>,
 );
 
 /// Start-up: builds the tours that exist.
@@ -215,12 +228,13 @@ fn finish_building(
 fn finish(
     commands: &mut Commands,
     assets: &mut TourAssets,
-    (entity, _, policy, layers, before): (
+    (entity, _, policy, layers, before, weather): (
         Entity,
         &PictureTour,
         &ColorPolicy,
         Option<&RenderLayers>,
         Option<&ShownTour>,
+        Option<&TourWeather>,
     ),
     asset: &TourAsset,
     stage: Stage,
@@ -241,10 +255,13 @@ fn finish(
             for remark in built.remarks.iter().chain(&built.solution.report.remarks) {
                 info!("{remark}");
             }
-            let motion = TourMotion::new(asset.tour(), &built);
+            let mut motion = TourMotion::new(asset.tour(), &built);
+            if let Some(weather) = weather.filter(|_| before.is_none()) {
+                motion.begin_in(weather);
+            }
             spawn::show(commands, assets, entity, built, motion.simulation(), *policy, layers, before);
             let weather = TourWeather(motion.simulation().weather_to_come());
-            commands.entity(entity).try_insert(motion).try_insert_if_new(weather);
+            commands.entity(entity).try_insert((motion, weather));
             match asset.tour().path.as_ref().and_then(CameraPath::way) {
                 Some(path) => commands.entity(entity).try_insert(TourPath(path)),
                 None => commands.entity(entity).try_remove::<TourPath>(),

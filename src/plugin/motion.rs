@@ -77,6 +77,12 @@ impl TourMotion {
         }
     }
 
+    /// Begins anew in another weather than the tour's own.
+    pub(super) fn begin_in(&mut self, weather: &Weather) {
+        self.simulation.set_weather(weather);
+        self.simulation.go_to(0.0);
+    }
+
     /// Seconds since the tour's start.
     #[must_use]
     pub fn seconds(&self) -> f64 {

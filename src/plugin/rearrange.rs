@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::load::TourBuilding;
 use super::material::TourMaterial;
+use super::motion::TourMotion;
 use super::spawn::{ShownTour, SolvedTour, corners, quad};
 use crate::assemble::{AssembledTour, PlacedTour};
 use crate::scene::TourScene;
+use crate::tour::Tour;
 
 /// What a rearrangement needs.
 #[derive(bevy::ecs::system::SystemParam)]
@@ -31,13 +32,20 @@ impl Rearranging<'_, '_> {
         self.tours.iter_mut().any(|(_, solved)| solved.is_changed())
     }
 
-    /// Moves the planes of a tour that is shown; says whether it could: marks that make other components need other maps.
+    /// Lets the water, the clouds and everything else of a shown tour begin to move anew, as a document says.
+    pub(crate) fn move_anew(&mut self, entity: Entity, tour: &Tour) {
+        if let Ok((_, solved)) = self.tours.get(entity) {
+            self.commands.entity(entity).try_insert(TourMotion::new(tour, solved));
+        }
+    }
+
+    /// Moves the planes of a tour that is shown; says whether it did: marks that make other components need other maps.
     pub(crate) fn place(&mut self, tour: Entity, placed: &PlacedTour) -> bool {
         let Ok((mut shown, mut solved)) = self.tours.get_mut(tour) else { return false };
-        if !has_same_components(&solved.scene, &placed.scene) {
+        let scene = &placed.scene;
+        if solved.scene == *scene || !has_same_components(&solved.scene, scene) {
             return false;
         }
-        let scene = &placed.scene;
         for (index, component) in scene.components.iter().enumerate() {
             shown.records.set_component(index, &component.surface, None);
             // It was made here, so the handle is its own.
@@ -48,8 +56,6 @@ impl Rearranging<'_, '_> {
                 material.tour = material.tour.taken_by(&scene.camera);
             }
         }
-        // What is being built stands where things were.
-        self.commands.entity(tour).try_remove::<TourBuilding>();
         // What the views saw is no longer so.
         shown.views.clear();
         solved.0 = Arc::new(AssembledTour {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use bevy::app::TaskPoolOptions;
 use bevy::asset::AssetPlugin;
 use bevy::prelude::*;
 use bevy::window::{ExitCondition, PresentMode, WindowCloseRequested, WindowPlugin};
@@ -52,6 +53,7 @@ pub(crate) fn run(file: Option<PathBuf>) -> Result<ExitCode, Failure> {
                     close_when_requested: false,
                     ..default()
                 })
+                .set(TaskPoolPlugin { task_pool_options: several_tasks() })
                 .set(AssetPlugin { watch_for_changes_override: Some(false), ..default() }),
             EguiPlugin::default(),
             PictureTourPlugin,
@@ -69,6 +71,18 @@ pub(crate) fn run(file: Option<PathBuf>) -> Result<ExitCode, Failure> {
         AppExit::Error(_) => ExitCode::from(2),
     })
 }
+
+/// Threads enough that the draft is checked while the machine looks for an outline and the tour is refined, also on a
+/// machine with few cores.
+fn several_tasks() -> TaskPoolOptions {
+    let mut options = TaskPoolOptions::default();
+    options.async_compute.min_threads = TASKS;
+    options.async_compute.max_threads = options.async_compute.max_threads.max(TASKS);
+    options
+}
+
+/// Work that may go on at the same time in the background.
+const TASKS: usize = 4;
 
 /// Asks about unsaved work when the window is to close, and ends when the studio is left.
 fn leave(

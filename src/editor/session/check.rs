@@ -10,10 +10,10 @@ use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
 use super::Session;
 use crate::assemble::{PlacedTour, TourSource, place, read_beside};
 use crate::motion::Recordings;
-use crate::picture::{DecodedPicture, PicturePoint};
+use crate::picture::{DecodedPicture, Mask, PicturePoint};
 use crate::solve::{Solution, SolveError};
 use crate::tour::edit::Draft;
-use crate::tour::{Motion, Problem, Problems, RelativePath, Sea, Tour};
+use crate::tour::{Motion, Problem, Problems, RelativePath, Sea, Tour, TourFile};
 
 /// Seconds without an edit after which the tour is built anew.
 const QUIET_SECONDS: f64 = 0.35;
@@ -21,11 +21,43 @@ const QUIET_SECONDS: f64 = 0.35;
 /// What is known of a revision of the draft.
 #[derive(Debug, Default)]
 pub(super) struct Checked {
-    pub(super) revision: u64,
+    /// The revision that was checked, and whether there was a picture.
+    of: Option<(u64, bool)>,
     pub(super) problems: Vec<Problem>,
     pub(super) solved: Option<Result<Solution, SolveError>>,
     placed: Option<Arc<PlacedTour>>,
     source: Option<Arc<TourSource>>,
+    looks: Option<Looks>,
+}
+
+/// All that maps depend on.
+#[derive(Clone, Debug)]
+struct Looks {
+    /// Without anything that moves.
+    tour: TourFile,
+    masks: Vec<Arc<Mask>>,
+    picture: Arc<DecodedPicture>,
+}
+
+impl Looks {
+    fn of(draft: &Draft, picture: &Arc<DecodedPicture>) -> Self {
+        let mut tour = draft.tour.clone();
+        (tour.wind, tour.waves, tour.path) = Default::default();
+        tour.objects.iter_mut().for_each(|object| object.motion = Motion::Static);
+        if let Some(sky) = &mut tour.sky {
+            sky.drift = None;
+        }
+        let masks = draft.masks.iter().map(|(_, mask)| Arc::clone(mask)).collect();
+        Self { tour, masks, picture: Arc::clone(picture) }
+    }
+}
+
+impl PartialEq for Looks {
+    fn eq(&self, other: &Self) -> bool {
+        let same_masks = self.masks.len() == other.masks.len()
+            && self.masks.iter().zip(&other.masks).all(|(a, b)| Arc::ptr_eq(a, b));
+        same_masks && Arc::ptr_eq(&self.picture, &other.picture) && self.tour == other.tour
+    }
 }
 
 /// What is to be shown of the draft.
@@ -33,6 +65,8 @@ pub(super) struct Checked {
 pub(super) enum News {
     /// Its planes, while it is being changed.
     Placed(Arc<PlacedTour>),
+    /// What moves in it; it looks as it did.
+    Moving(Arc<TourSource>),
     /// All of it.
     Whole(Arc<TourSource>),
 }
@@ -44,6 +78,8 @@ pub(super) struct Checking {
     seen: Option<u64>,
     changed_at: f64,
     shown: Option<u64>,
+    /// What is shown looks like.
+    looks: Option<Looks>,
     /// Recordings that were read, and what they are of.
     recorded: Arc<Mutex<Option<(Recorded, Recordings)>>>,
 }
@@ -60,42 +96,36 @@ impl Session {
         let mut news = None;
         if let Some(done) = checking.running.as_mut().and_then(check_ready) {
             checking.running = None;
-            news = done.placed.clone().filter(|_| checking.shown.is_some()).map(News::Placed);
+            let differs = checking.looks.is_some() && done.looks != checking.looks;
+            news = done.placed.clone().filter(|_| differs).map(News::Placed);
             self.checked = done;
         }
-        let is_old = self.checked.revision != revision || self.checked.is_empty();
+        let wanted = (revision, desk.picture().is_some());
+        let is_old = self.checked.of != Some(wanted);
         if is_old && checking.running.is_none() {
             let (draft, picture) = (desk.draft().clone(), desk.picture().cloned());
             let folder = desk.path().parent().unwrap_or(Path::new("")).to_owned();
             let recorded = RecordedFiles { folder, read: Arc::clone(&checking.recorded) };
-            checking.running = Some(
-                AsyncComputeTaskPool::get()
-                    .spawn(async move { checked(revision, &draft, picture.as_deref(), &recorded) }),
-            );
+            checking.running = Some(AsyncComputeTaskPool::get().spawn(async move {
+                let of = Some(wanted);
+                Checked { of, ..checked(&draft, picture.as_ref(), &recorded) }
+            }));
         }
         let is_quiet = now - checking.changed_at >= QUIET_SECONDS && !desk.history().in_gesture();
         if is_old || !is_quiet || checking.shown == Some(revision) {
             return news;
         }
         checking.shown = Some(revision);
-        self.checked.source.clone().map(News::Whole)
-    }
-}
-
-impl Checked {
-    fn is_empty(&self) -> bool {
-        self.solved.is_none() && self.source.is_none() && self.problems.is_empty()
+        let source = self.checked.source.clone()?;
+        let same = checking.looks.is_some() && self.checked.looks == checking.looks;
+        checking.looks.clone_from(&self.checked.looks);
+        Some(if same { News::Moving(source) } else { News::Whole(source) })
     }
 }
 
 /// Checks, solves and places a draft.
-fn checked(
-    revision: u64,
-    draft: &Draft,
-    picture: Option<&DecodedPicture>,
-    recorded: &RecordedFiles,
-) -> Checked {
-    let mut checked = Checked { revision, ..Checked::default() };
+fn checked(draft: &Draft, picture: Option<&Arc<DecodedPicture>>, recorded: &RecordedFiles) -> Checked {
+    let mut checked = Checked::default();
     let tour = match Tour::check(draft.tour.clone()) {
         Ok(tour) => tour,
         Err(problems) => {
@@ -104,7 +134,8 @@ fn checked(
         }
     };
     let Some(picture) = picture else { return checked };
-    let source = TourSource::of(&tour, picture.clone(), &|place, file| mask_of(draft, place, file));
+    let source =
+        TourSource::of(&tour, DecodedPicture::clone(picture), &|place, file| mask_of(draft, place, file));
     match source.and_then(|source| Ok(TourSource { recordings: recorded.of(&tour)?, ..source })) {
         Ok(source) => {
             let (solved, placed) = match place(&source) {
@@ -114,6 +145,7 @@ fn checked(
             checked.solved = Some(solved.map(|solution| in_document(solution, &tour, &source)));
             checked.placed = placed;
             checked.source = Some(Arc::new(source));
+            checked.looks = Some(Looks::of(draft, picture));
         }
         Err(problems) => checked.problems = problems.0,
     }
@@ -147,7 +179,7 @@ impl RecordedFiles {
     }
 }
 
-fn mask_of(draft: &Draft, place: &str, file: &RelativePath) -> Result<crate::picture::Mask, Box<Problem>> {
+fn mask_of(draft: &Draft, place: &str, file: &RelativePath) -> Result<Mask, Box<Problem>> {
     let missing = || {
         let advice = "draw the region anew, or put the mask's file back";
         Box::new(Problem::new(place, format!("\"{file}\""), "the mask is not there", advice))

@@ -7,7 +7,7 @@ use egui_file_dialog::FileDialog;
 
 use super::Session;
 use crate::editor::text::with;
-use crate::editor::{Question, egui};
+use crate::editor::{Message, Question, egui};
 use crate::tour::edit::desk::{Desk, DeskError, Opened, Replace, Saved};
 
 /// Seconds between two writes of the recovery file.
@@ -35,36 +35,43 @@ impl Session {
 
     fn take_opened(&mut self, path: &Path, opened: Opened) {
         let Opened { desk, recovered, existing_tour, notes, problems } = opened;
-        let is_picture = desk.is_new();
-        self.close_desk();
+        (self.message, self.question, self.dialog) = (None, None, None);
+        self.close_desk(false);
         self.desk = Some(desk);
-        self.recovered = recovered;
-        self.message = None;
-        self.question = None;
+        self.studio.begin();
+        self.another = true;
+        (self.recovered, self.existing) = (recovered, existing_tour);
         self.exit = false;
         // A list of files that cannot be written is not worth a message.
         let _ = self.recent.add(path);
         self.recent_files = self.recent.files();
-        for problem in &problems {
-            self.fail(problem);
-        }
         if let Some(note) = notes.first() {
             let told = with(self.studio.language.text().work.notes, note);
             self.tell(&told, "");
         }
+        for problem in &problems {
+            self.fail(problem);
+        }
+        self.begin();
+        self.list_versions();
+    }
+
+    /// Asks what is to be asked of what was opened, and drafts a new tour.
+    fn begin(&mut self) {
         self.ask_about_recovered();
-        if self.question.is_none()
-            && let Some(file) = existing_tour
-        {
+        if self.question.is_some() {
+            return;
+        }
+        if let Some(file) = self.existing.take() {
             self.question = Some(Question::ExistingTour { file });
-        } else if is_picture && self.question.is_none() {
+        } else if self.desk.as_ref().is_some_and(|desk| desk.is_new() && desk.is_saved()) {
             self.begin_with_a_draft();
         }
-        self.list_versions();
     }
 
     /// Goes on after a question was answered.
     pub(super) fn stay(&mut self) {
+        self.leaves = false;
         let began_anew = matches!(self.question, Some(Question::ExistingTour { .. }));
         self.question = None;
         if began_anew {
@@ -96,7 +103,7 @@ impl Session {
         if take {
             self.recovered.clear();
         }
-        self.ask_about_recovered();
+        self.begin();
     }
 
     /// Writes the tour; says whether all is saved then.
@@ -119,6 +126,9 @@ impl Session {
                 let _ = self.recent.add(&path);
                 self.recent_files = self.recent.files();
                 self.list_versions();
+                if std::mem::take(&mut self.leaves) {
+                    self.leave(false);
+                }
                 true
             }
             Err(DeskError::ChangedOnDisk { .. }) => {
@@ -138,33 +148,36 @@ impl Session {
         if has_work {
             self.question = Some(Question::Unsaved);
         } else {
-            self.leave();
+            self.leave(false);
         }
     }
 
     pub(super) fn save_and_leave(&mut self) {
         self.question = None;
-        if self.save(Replace::Never) {
-            self.leave();
+        self.leaves = !self.save(Replace::Never);
+        if !self.leaves {
+            self.leave(false);
         }
     }
 
-    pub(super) fn leave(&mut self) {
+    /// Leaves; what is not saved is given up if the user says so.
+    pub(super) fn leave(&mut self, gives_up: bool) {
         self.question = None;
-        self.close_desk();
+        self.close_desk(gives_up);
         self.exit = true;
     }
 
-    fn close_desk(&mut self) {
+    fn close_desk(&mut self, gives_up: bool) {
         self.jobs.clear();
+        self.later.clear();
         self.suggestions.clear();
         self.forget_picture();
         (self.checked, self.checking) = Default::default();
-        if let Some(desk) = self.desk.take() {
-            // What is not saved keeps its recovery file, except where the user gave it up.
-            if desk.is_saved() || self.question == Some(Question::Unsaved) || self.exit {
-                desk.close();
-            }
+        let Some(mut desk) = self.desk.take() else { return };
+        if desk.is_saved() || gives_up {
+            desk.close();
+        } else if let Err(error) = desk.autosave(0.0, 0.0) {
+            self.fail(&error);
         }
     }
 
@@ -177,9 +190,7 @@ impl Session {
     }
 
     pub(super) fn take_version(&mut self, index: usize) {
-        let Some(desk) = &mut self.desk else { return };
-        let versions = desk.versions();
-        let Some(version) = versions.get(index) else { return };
+        let (Some(desk), Some(version)) = (&mut self.desk, self.versions.get(index)) else { return };
         match desk.take_version(version) {
             Ok(problems) => problems.iter().for_each(|problem| self.fail(problem)),
             Err(error) => self.fail(&error),
@@ -187,8 +198,12 @@ impl Session {
     }
 
     fn list_versions(&mut self) {
-        let versions = self.desk.as_ref().map(Desk::versions).unwrap_or_default();
-        self.versions = versions.iter().map(|version| self.ago(version.modified)).collect();
+        self.versions = self.desk.as_ref().map(Desk::versions).unwrap_or_default();
+    }
+
+    /// The versions in words, as old as they are now.
+    pub(super) fn versions_in_words(&self) -> Vec<String> {
+        self.versions.iter().map(|version| self.ago(version.modified)).collect()
     }
 
     fn ago(&self, then: Option<SystemTime>) -> String {
@@ -251,15 +266,25 @@ impl Session {
             Asked::Open => self.open(&path),
             Asked::SaveAs => {
                 let Some(desk) = &mut self.desk else { return };
+                let file = Desk::file_of(&path);
+                // The dialog has asked about the name that was typed only.
+                if file != path && file != desk.path() && file.exists() {
+                    let what = with(self.studio.language.text().work.taken, file.display());
+                    self.message = Some(Message { what, advice: String::new(), is_error: true });
+                    return;
+                }
                 let saved = desk.save_as(&path);
                 self.after_save(saved);
             }
             Asked::FindPicture => {
                 let Some(desk) = &mut self.desk else { return };
                 let found = desk.find_picture(&path);
-                self.forget_picture();
-                if let Err(error) = found {
-                    self.fail(&error);
+                match found {
+                    Ok(()) => {
+                        self.forget_picture();
+                        (self.checked, self.checking) = Default::default();
+                    }
+                    Err(error) => self.fail(&error),
                 }
             }
         }

@@ -12,7 +12,7 @@ use crate::editor::text::Text;
 use crate::editor::{Request, Task};
 use crate::plugin::{
     Guide, ObjectMotion, PictureTour, Rearranging, TourAsset, TourBuilding, TourCamera, TourCameraState,
-    TourMotion, TourPart, TourPointer, TourReady, TourWeather,
+    TourMotion, TourPart, TourPath, TourPointer, TourReady, TourWeather,
 };
 use crate::scene::TourScene;
 use crate::tour::edit::Edit;
@@ -69,7 +69,39 @@ impl Flight<'_, '_> {
     /// Moves the planes of what is shown to where newer marks put them; textures follow when all is built anew.
     pub(super) fn rearrange(&mut self, placed: &PlacedTour) {
         for (entity, _, mut shown, _) in &mut self.tours {
+            // What is being built has become old.
+            self.commands.entity(entity).try_remove::<TourBuilding>();
             shown.is_rearranged |= self.planes.place(entity, placed);
+        }
+    }
+
+    /// Lets wind, water and path of what is shown be as in a newer draft that looks the same.
+    pub(super) fn set_motion(&mut self, source: Arc<TourSource>) {
+        let Some((entity, handle)) =
+            self.tours.iter().next().map(|(entity, shown, ..)| (entity, shown.0.id()))
+        else {
+            return;
+        };
+        let Some(before) = self.assets.get(handle).map(TourAsset::tour) else { return };
+        let new = &source.tour;
+        let clouds = |tour: &Tour| tour.sky.as_ref().and_then(|sky| sky.drift.clone());
+        if before.waves != new.waves || clouds(before) != clouds(new) {
+            self.planes.move_anew(entity, new);
+        }
+        let mut shown = self.commands.entity(entity);
+        match new.path.as_ref().and_then(CameraPath::way) {
+            Some(way) => shown.try_insert(TourPath(way)),
+            None => shown.try_remove::<TourPath>(),
+        };
+        for (_, mut weather) in &mut self.motions {
+            if weather.wind != new.wind {
+                weather.wind = new.wind;
+            }
+        }
+        self.move_objects(&source.tour);
+        // Nothing is to be built for it.
+        if let Some(asset) = self.assets.get_mut_untracked(handle) {
+            *asset = TourAsset::from(source);
         }
     }
 
@@ -166,6 +198,19 @@ impl Flight<'_, '_> {
         (camera.guide == Guide::Path).then_some(state.path_seconds)
     }
 
+    /// Goes round at the end of a path that is a loop, and stops at the end of another one.
+    pub(super) fn end_path(&mut self, path: Option<&CameraPath>) {
+        let Some((path, way)) = path.and_then(|path| Some((path, path.way()?))) else { return };
+        for (_, mut camera, mut state) in &mut self.cameras {
+            let is_over = camera.guide == Guide::Path && state.path_seconds >= way.duration();
+            if is_over && path.looped {
+                state.path_seconds %= way.duration();
+            } else if is_over {
+                (camera.guide, state.path_seconds) = (Guide::Still, way.duration());
+            }
+        }
+    }
+
     /// Does what was asked of camera and motion.
     pub(super) fn carry_out(&mut self, request: &Request, path: Option<&CameraPath>) {
         let way = || path.and_then(CameraPath::way);
@@ -180,11 +225,22 @@ impl Flight<'_, '_> {
                 let pose = path.and_then(|path| path.keyframes.get(*index)).map(crate::tour::Keyframe::pose);
                 self.stand_at(pose);
             }
-            Request::ShowPathAt(seconds) => self.stand_at(way().map(|way| way.at(*seconds))),
+            Request::ShowPathAt(seconds) => {
+                self.stand_at(way().map(|way| way.at(*seconds)));
+                for (.., mut state) in &mut self.cameras {
+                    state.path_seconds = *seconds;
+                }
+            }
             Request::PlayPath(plays) => {
+                for (entity, shown) in self.tours.iter().map(|(entity, ..)| (entity, way())) {
+                    if let Some(way) = shown {
+                        self.commands.entity(entity).try_insert(TourPath(way));
+                    }
+                }
+                let end = way().map_or(0.0, |way| way.duration());
                 for (_, mut camera, mut state) in &mut self.cameras {
                     camera.guide = if *plays { Guide::Path } else { Guide::Still };
-                    if *plays && !path.is_some_and(|path| path.looped) {
+                    if *plays && state.path_seconds >= end {
                         state.path_seconds = 0.0;
                     }
                 }

@@ -44,6 +44,18 @@ pub(super) struct Job {
     id: u64,
     progress: Progress,
     running: Running<Finish>,
+    /// Whether it finds an outline, which the next such work begins with.
+    is_refinement: bool,
+}
+
+impl Job {
+    pub(super) fn is_refinement(&self) -> bool {
+        self.is_refinement
+    }
+
+    pub(super) fn mark_refinement(&mut self) {
+        self.is_refinement = true;
+    }
 }
 
 impl std::fmt::Debug for Session {
@@ -69,7 +81,7 @@ impl Session {
         let told = progress.clone();
         let running = AsyncComputeTaskPool::get().spawn(async move { work(&told) });
         let id = self.new_id();
-        self.jobs.push(Job { id, progress, running });
+        self.jobs.push(Job { id, progress, running, is_refinement: false });
     }
 
     /// Stops the work of this number, and forgets it.
@@ -79,6 +91,10 @@ impl Session {
 
     /// Takes what is done.
     pub(super) fn take_finished(&mut self) {
+        // What the machine finds is no part of what the hand is doing.
+        if self.desk.as_ref().is_some_and(|desk| desk.history().in_gesture()) {
+            return;
+        }
         let mut finished = Vec::new();
         self.jobs.retain_mut(|job| match check_ready(&mut job.running) {
             Some(finish) => {
@@ -90,6 +106,7 @@ impl Session {
         for finish in finished {
             finish(self);
         }
+        self.refine_next();
     }
 
     /// The work as the studio shows it.

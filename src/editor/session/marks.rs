@@ -1,47 +1,56 @@
-//! Marks that the machine helps to make: regions grown and refined, strokes painted, ways along edges, whole drafts.
+//! Marks that the machine helps to make: regions grown and refined, strokes painted, ways along edges.
 
 use std::sync::Arc;
 
 use glam::UVec2;
 
 use super::Session;
-use super::job::Finish;
-use crate::assemble::{DraftedTour, draft_tour};
-use crate::editor::{BrushStroke, Ghost, Step, SuggestWhat, Suggestion};
+use super::job::Job;
+use crate::editor::BrushStroke;
 use crate::picture::{DecodedPicture, Mask, Picture, PicturePoint};
 use crate::suggest::outline::{
     Brush, BrushMode, GrowBound, GrowOptions, LiveWire, MaskCanvas, ObjectHints, Side, Stroke, contact_line,
     grab_cut, grow, simplified,
 };
-use crate::suggest::{Part, Remark};
 use crate::tour::edit::{Edit, MaskPatch, PackedMask, RegionAt};
-use crate::tour::{Motion, Region, RelativePath};
+use crate::tour::{Motion, Region};
 
 /// How far a traced way may be simplified, picture pixels.
 const TRACE_TOLERANCE: f64 = 1.5;
+
+/// An outline that is to be found.
+#[derive(Debug)]
+pub(super) struct Refinement {
+    /// The object's name.
+    object: String,
+    corners: Option<[PicturePoint; 2]>,
+    stroke: Option<BrushStroke>,
+}
 
 /// The way along edges that is being traced.
 #[derive(Debug, Default)]
 pub(super) struct Tracing {
     /// Prepared for a picture.
     wire: Option<LiveWire>,
+    /// Whether it is being prepared.
+    is_coming: bool,
     anchor: Option<PicturePoint>,
     pub(super) way: Vec<PicturePoint>,
 }
 
 impl Session {
-    fn picture(&self) -> Option<Arc<DecodedPicture>> {
+    pub(super) fn picture(&self) -> Option<Arc<DecodedPicture>> {
         self.desk.as_ref()?.picture().cloned()
     }
 
     /// Pixels of the picture's file per pixel of the document.
-    fn scale(&self, picture: &Picture) -> f64 {
+    pub(super) fn scale(&self, picture: &Picture) -> f64 {
         let marked = self.desk.as_ref().and_then(|desk| desk.tour().picture.size);
         marked.map_or(1.0, |size| f64::from(picture.size().x) / f64::from(size.x.max(1)))
     }
 
     /// The mask that a region is, drawn from its polygon if it is one.
-    fn mask_of(&self, at: RegionAt, size: UVec2, scale: f64) -> Option<Mask> {
+    pub(super) fn mask_of(&self, at: RegionAt, size: UVec2, scale: f64) -> Option<Mask> {
         let desk = self.desk.as_ref()?;
         match at.get(desk.tour())? {
             Region::Mask(name) => desk.draft().masks.get(name).map(|mask| (**mask).clone()),
@@ -85,19 +94,31 @@ impl Session {
         let Some(picture) = self.picture() else { return };
         let scale = self.scale(&picture.picture);
         let (stroke, bound) = (scaled(stroke, scale), self.bound_of(at, scale));
-        let earlier = self.mask_of(at, picture.picture.size(), scale);
+        let named = self.owner_of(at);
         let title = self.studio.language.text().work.growing;
         self.start(title, move |_| {
             let options = GrowOptions { tolerance: 1.0, bound };
             let grown = grow(&picture.picture, &stroke, options);
             Box::new(move |session: &mut Self| match grown {
+                // What it was for may have gone, or have another number by now.
+                Ok(_) if session.owner_of(at) != named => {}
                 Ok(grown) => {
-                    let mask = joined(earlier, &grown, stroke.side);
-                    session.set_mask(at, &mask);
+                    let earlier = session.mask_of(at, grown.size(), scale);
+                    session.set_mask(at, &joined(earlier, &grown, stroke.side));
                 }
                 Err(error) => session.fail(&error),
             })
         });
+    }
+
+    /// The name of the band or object whose region it is.
+    fn owner_of(&self, at: RegionAt) -> Option<String> {
+        let tour = self.desk.as_ref()?.tour();
+        match at {
+            RegionAt::Band(index) => tour.background.bands.get(index).map(|band| band.name.clone()),
+            RegionAt::Object(index) => tour.objects.get(index).map(|object| object.name.clone()),
+            RegionAt::Water | RegionAt::Ground | RegionAt::Sky => None,
+        }
     }
 
     /// The side of the horizon that a region stays on.
@@ -110,39 +131,65 @@ impl Session {
         }
     }
 
-    /// Finds an object's outline in a box or by one more stroke, and sets it.
+    /// Finds an object's outline in a box or by one more stroke, and sets it; one after the other, for each begins with
+    /// what the one before found.
     pub(super) fn refine(
         &mut self,
         object: usize,
         corners: Option<[PicturePoint; 2]>,
-        stroke: Option<&BrushStroke>,
+        stroke: Option<BrushStroke>,
     ) {
-        let Some(picture) = self.picture() else { return };
+        let named = self.desk.as_ref().and_then(|desk| desk.tour().objects.get(object));
+        if let Some(object) = named.map(|object| object.name.clone()) {
+            self.later.push_back(Refinement { object, corners, stroke });
+            self.refine_next();
+        }
+    }
+
+    /// Begins with the next outline that waits, unless one is being found.
+    pub(super) fn refine_next(&mut self) {
+        if self.jobs.iter().any(Job::is_refinement) {
+            return;
+        }
+        let (Some(picture), Some(refinement)) = (self.picture(), self.later.pop_front()) else { return };
+        let Refinement { object: name, corners, stroke } = refinement;
+        let Some(object) = self.object_of(&name) else { return self.refine_next() };
         let (scale, size) = (self.scale(&picture.picture), picture.picture.size());
-        let at = RegionAt::Object(object);
         let corners = corners.map(|corners| corners.map(|corner| PicturePoint(corner.0 * scale)));
         let strokes: Vec<Stroke> = stroke.iter().map(|stroke| scaled(stroke, scale)).collect();
         // A box begins anew.
-        let earlier = if corners.is_some() { None } else { self.mask_of(at, size, scale) };
+        let earlier =
+            if corners.is_some() { None } else { self.mask_of(RegionAt::Object(object), size, scale) };
         let motion = self.desk.as_ref().and_then(|desk| desk.tour().objects.get(object)).map(|o| &o.motion);
         let is_solid = !matches!(motion, Some(Motion::Sway(_)));
         let title = self.studio.language.text().work.outlining;
         self.start(title, move |progress| {
             let hints = ObjectHints { corners, strokes: &strokes, earlier: earlier.as_ref(), is_solid };
             let cut = grab_cut(&picture.picture, &hints, &|share, _| progress.at(share));
-            Box::new(move |session: &mut Self| match cut {
-                Ok(cut) => {
-                    session.set_mask(at, &cut.mask);
-                    if corners.is_some() {
-                        session.set_contact(object, &cut.mask, scale);
+            Box::new(move |session: &mut Self| {
+                let Some(object) = session.object_of(&name) else { return };
+                match cut {
+                    Ok(cut) => {
+                        session.set_mask(RegionAt::Object(object), &cut.mask);
+                        if corners.is_some() {
+                            session.set_contact(object, &cut.mask, scale);
+                        }
                     }
+                    Err(error) => session.fail(&error),
                 }
-                Err(error) => session.fail(&error),
             })
         });
+        if let Some(job) = self.jobs.last_mut() {
+            job.mark_refinement();
+        }
     }
 
-    fn set_contact(&mut self, object: usize, mask: &Mask, scale: f64) {
+    /// The number that an object has now.
+    fn object_of(&self, name: &str) -> Option<usize> {
+        self.desk.as_ref()?.tour().objects.iter().position(|object| object.name == name)
+    }
+
+    pub(super) fn set_contact(&mut self, object: usize, mask: &Mask, scale: f64) {
         if let Some(line) = contact_line(mask) {
             let contact = line.feet.map(|foot| PicturePoint(foot.0 / scale));
             self.edit(&Edit::Contact { object, contact });
@@ -179,7 +226,7 @@ impl Session {
     pub(super) fn trace(&mut self, from: PicturePoint, to: PicturePoint) {
         let Some(picture) = self.picture() else { return };
         let scale = self.scale(&picture.picture);
-        let wire = self.tracing.wire.get_or_insert_with(|| LiveWire::new(&picture.picture));
+        let Some(wire) = &mut self.tracing.wire else { return self.prepare_tracing(picture) };
         if self.tracing.anchor != Some(from) {
             wire.anchor(PicturePoint(from.0 * scale));
             self.tracing.anchor = Some(from);
@@ -191,169 +238,26 @@ impl Session {
             .collect();
     }
 
-    /// Forgets what was prepared for another picture.
-    pub(super) fn forget_picture(&mut self) {
-        self.tracing = Tracing::default();
-    }
-
-    /// Lets the machine propose: all at once, or a part of it.
-    pub(super) fn suggest(&mut self, what: SuggestWhat) {
-        let Some(picture) = self.picture() else { return };
-        if let SuggestWhat::Contact(object) = what {
-            let (scale, size) = (self.scale(&picture.picture), picture.picture.size());
-            if let Some(mask) = self.mask_of(RegionAt::Object(object), size, scale) {
-                self.set_contact(object, &mask, scale);
-            }
+    /// Prepares a picture for ways along its edges, which takes seconds for a large one; until then there are none.
+    fn prepare_tracing(&mut self, picture: Arc<DecodedPicture>) {
+        if std::mem::replace(&mut self.tracing.is_coming, true) {
             return;
         }
-        self.draft(picture, move |session, drafted| session.propose(&drafted, what));
-    }
-
-    /// Drafts the tour of a picture that was just opened, and takes the draft: one step, to be undone.
-    pub(super) fn begin_with_a_draft(&mut self) {
-        let Some(picture) = self.picture() else { return };
-        self.draft(picture, |session, drafted| {
-            session.edit(&Edit::Many(edits_of(&drafted, |_| true)));
-            let words = session.studio.language.text().work;
-            session.tell(words.drafted, words.drafted_advice);
-            session.studio.go_to(Step::Horizon);
-        });
-    }
-
-    fn draft(
-        &mut self,
-        picture: Arc<DecodedPicture>,
-        then: impl FnOnce(&mut Self, DraftedTour) + Send + 'static,
-    ) {
-        let Some(desk) = &self.desk else { return };
-        let file = desk.tour().picture.file.clone();
-        let folder = desk.free_mask_name("draft").replace(".png", "");
-        let title = self.studio.language.text().work.looking;
-        self.start(title, move |progress| -> Finish {
-            let folder = match RelativePath::new(&folder) {
-                Ok(folder) => folder,
-                Err(error) => return Box::new(move |session: &mut Self| session.fail(&error)),
-            };
-            let doing = |share: f32, step: &str| progress.doing(share, step);
-            let drafted = draft_tour(&picture.picture, picture.lens, file, &folder, &doing);
-            Box::new(move |session: &mut Self| match drafted {
-                Ok(drafted) => then(session, drafted),
-                Err(error) => session.fail(&error),
+        let title = self.studio.language.text().work.tracing;
+        self.start(title, move |_| {
+            let wire = LiveWire::new(&picture.picture);
+            Box::new(move |session: &mut Self| {
+                // Another picture may have come meanwhile.
+                let is_same = session.picture().is_some_and(|now| Arc::ptr_eq(&now, &picture));
+                session.tracing = Tracing { wire: is_same.then_some(wire), ..Tracing::default() };
             })
         });
     }
 
-    /// Shows parts of a draft as suggestions.
-    fn propose(&mut self, drafted: &DraftedTour, what: SuggestWhat) {
-        let asked = |kind: SuggestWhat| what == SuggestWhat::Everything || what == kind;
-        let parts = [
-            (Part::Horizon, Step::Horizon, SuggestWhat::Horizon),
-            (Part::Water, Step::Water, SuggestWhat::Regions),
-            (Part::Sky, Step::Ground, SuggestWhat::Regions),
-            (Part::Ground, Step::Ground, SuggestWhat::Regions),
-            (Part::Background, Step::Ground, SuggestWhat::Regions),
-            (Part::Pairs, Step::Pairs, SuggestWhat::Pairs),
-        ];
-        let mut nothing = true;
-        for (part, step, _) in parts.into_iter().filter(|(.., kind)| asked(*kind)) {
-            let edits = edits_of(drafted, |other| other == part);
-            let Some(remark) = drafted.trust.iter().find(|remark| remark.part == part) else { continue };
-            if edits.is_empty() {
-                continue;
-            }
-            nothing = false;
-            self.suggestions.retain(|old| old.step != step || old.title != part.to_string());
-            let suggestion = suggestion(self.new_id(), step, remark, edits, drafted);
-            self.suggestions.push(suggestion);
-        }
-        if nothing {
-            let reason =
-                drafted.trust.iter().map(|remark| remark.sentence.as_str()).next().unwrap_or_default();
-            let words = self.studio.language.text().work;
-            let told = format!("{}: {reason}", words.nothing_found);
-            self.tell(&told, "");
-        }
+    /// Forgets what was prepared for another picture.
+    pub(super) fn forget_picture(&mut self) {
+        self.tracing = Tracing::default();
     }
-}
-
-fn suggestion(id: u64, step: Step, remark: &Remark, edits: Vec<Edit>, drafted: &DraftedTour) -> Suggestion {
-    let ghosts = match remark.part {
-        Part::Horizon => drafted
-            .tour
-            .camera
-            .horizon
-            .map(|ends| Ghost::Line { points: ends.into(), closed: false })
-            .into_iter()
-            .collect(),
-        Part::Pairs => {
-            let pairs = drafted.tour.water.iter().flat_map(|water| &water.pairs);
-            pairs.map(|pair| Ghost::Pair(pair.point, pair.reflection)).collect()
-        }
-        _ => Vec::new(),
-    };
-    Suggestion {
-        id,
-        step,
-        title: remark.part.to_string(),
-        reason: remark.sentence.clone(),
-        confidence: remark.confidence,
-        edits,
-        ghosts,
-    }
-}
-
-/// What takes the wanted parts of a draft.
-fn edits_of(drafted: &DraftedTour, wanted: impl Fn(Part) -> bool) -> Vec<Edit> {
-    let tour = drafted.tour.to_file();
-    let mut edits = Vec::new();
-    let set = |edits: &mut Vec<Edit>, at: RegionAt, region: Option<&Region<String>>| {
-        let Some(region) = region else { return };
-        if let Region::Mask(name) = region
-            && let Some((_, mask)) = drafted.masks.iter().find(|(path, _)| path.as_str() == name)
-        {
-            edits.push(Edit::Mask { name: name.clone(), mask: Some(PackedMask::new(mask)) });
-        }
-        edits.push(Edit::Region { at, region: Some(region.clone()) });
-    };
-    if wanted(Part::Horizon) && tour.camera.horizon.is_some() {
-        edits.push(Edit::Horizon(tour.camera.horizon));
-    }
-    if wanted(Part::FocalLength) {
-        edits.push(Edit::FocalLength(tour.camera.focal_length));
-    }
-    if wanted(Part::Water) {
-        set(&mut edits, RegionAt::Water, tour.water.as_ref().map(|water| &water.region));
-    }
-    if wanted(Part::Pairs)
-        && let Some(water) = tour.water.as_ref().filter(|water| !water.pairs.is_empty())
-    {
-        let place = |(index, pair): (usize, &crate::tour::ReflectionPair)| {
-            Edit::Pairs(crate::tour::edit::ListEdit::Insert(index, pair.clone()))
-        };
-        edits.extend(water.pairs.iter().enumerate().map(place));
-    }
-    if wanted(Part::Sky) {
-        set(&mut edits, RegionAt::Sky, tour.sky.as_ref().and_then(|sky| sky.region.as_ref()));
-    }
-    if wanted(Part::Ground)
-        && let Some(ground) = &tour.ground
-    {
-        set(&mut edits, RegionAt::Ground, Some(&ground.region));
-        edits.push(Edit::GroundHeight(ground.height_above_water));
-    }
-    if wanted(Part::Background) {
-        for (index, band) in tour.background.bands.iter().enumerate() {
-            let mut bare = band.clone();
-            bare.region = None;
-            edits.push(Edit::Bands(crate::tour::edit::ListEdit::Insert(index, bare)));
-            set(&mut edits, RegionAt::Band(index), band.region.as_ref());
-        }
-        if tour.background.place.is_some() {
-            let at = crate::tour::edit::PlaceAt::Background;
-            edits.push(Edit::Place { at, place: tour.background.place });
-        }
-    }
-    edits
 }
 
 /// A stroke in pixels of the picture's file.

@@ -8,8 +8,10 @@ mod files;
 mod flight;
 mod job;
 mod marks;
+mod propose;
 mod textures;
 
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
@@ -20,7 +22,7 @@ use self::check::{Checked, Checking, News};
 use self::files::Asked;
 use self::flight::Flight;
 use self::job::Job;
-use self::marks::Tracing;
+use self::marks::{Refinement, Tracing};
 use self::textures::Textures;
 use super::{
     DeskView, Message, Question, Request, Studio, Suggestion, Task, TourView, View, egui, studio_ui,
@@ -28,7 +30,7 @@ use super::{
 use crate::plugin::PictureTourSystems;
 use crate::tour::Tour;
 use crate::tour::edit::Edit;
-use crate::tour::edit::desk::{Desk, Recent, Recovered, Replace};
+use crate::tour::edit::desk::{Desk, Recent, Recovered, Replace, Version};
 
 /// Adds the studio to an app that has Bevy's default plugins, [`PictureTourPlugin`](crate::plugin::PictureTourPlugin) and
 /// `EguiPlugin`. It fills the window of the primary egui context while a [`Session`] is there.
@@ -52,20 +54,28 @@ pub struct Session {
     studio: Studio,
     desk: Option<Desk>,
     recovered: Vec<Recovered>,
+    /// A tour of the picture that was just opened, until the user was asked about it.
+    existing: Option<PathBuf>,
     recent: Recent,
     recent_files: Vec<PathBuf>,
-    versions: Vec<String>,
+    versions: Vec<Version>,
     message: Option<Message>,
     question: Option<Question>,
     dialog: Option<(Asked, FileDialog)>,
     suggestions: Vec<Suggestion>,
     jobs: Vec<Job>,
+    /// Strokes on outlines that wait for the one before.
+    later: VecDeque<Refinement>,
     last_id: u64,
     checked: Checked,
     checking: Checking,
     tracing: Tracing,
     /// To be opened once the app runs.
     first: Option<PathBuf>,
+    /// Whether another document was opened, and the tour of the one before is still shown.
+    another: bool,
+    /// Whether to leave as soon as it is saved.
+    leaves: bool,
     exit: bool,
 }
 
@@ -78,6 +88,7 @@ impl Session {
             studio: Studio::default(),
             desk: None,
             recovered: Vec::new(),
+            existing: None,
             recent_files: recent.files(),
             recent,
             versions: Vec::new(),
@@ -86,11 +97,14 @@ impl Session {
             dialog: None,
             suggestions: Vec::new(),
             jobs: Vec::new(),
+            later: VecDeque::new(),
             last_id: 0,
             checked: Checked::default(),
             checking: Checking::default(),
             tracing: Tracing::default(),
             first: None,
+            another: false,
+            leaves: false,
             exit: false,
         }
     }
@@ -121,9 +135,14 @@ impl Session {
     }
 
     fn fail(&mut self, error: &dyn std::error::Error) {
-        let message = Message { what: error.to_string(), advice: String::new(), is_error: true };
-        // A warning of another thing is not worth losing it.
-        self.message = Some(message);
+        let what = error.to_string();
+        match &mut self.message {
+            // One error is not worth losing another, which may be its cause.
+            Some(before) if before.is_error && !before.what.contains(&what) => {
+                before.what = format!("{}\n{what}", before.what);
+            }
+            message => *message = Some(Message { what, advice: String::new(), is_error: true }),
+        }
     }
 
     fn tell(&mut self, what: &str, advice: &str) {
@@ -172,7 +191,7 @@ impl Session {
             Request::Trace { from, to } => self.trace(from, to),
             Request::GrowRegion { at, stroke } => self.grow_region(at, &stroke),
             Request::RefineBox { object, corners } => self.refine(object, Some(corners), None),
-            Request::RefineStroke { object, stroke } => self.refine(object, None, Some(&stroke)),
+            Request::RefineStroke { object, stroke } => self.refine(object, None, Some(stroke)),
             Request::Paint { at, stroke, hardness } => self.paint(at, &stroke, hardness),
             other => self.carry_out_without_desk(other),
         }
@@ -184,7 +203,7 @@ impl Session {
             Request::Open(path) => self.open(&path),
             Request::Close => self.close(),
             Request::SaveAndClose => self.save_and_leave(),
-            Request::CloseUnsaved => self.leave(),
+            Request::CloseUnsaved => self.leave(true),
             Request::Stay => self.stay(),
             Request::Recover => self.recover(true),
             Request::DiscardRecovery => self.recover(false),
@@ -213,8 +232,12 @@ fn work(mut session: ResMut<Session>, mut flight: Flight, time: Res<Time<Real>>)
     }
     session.take_finished();
     session.autosave(now);
+    if std::mem::take(&mut session.another) {
+        flight.hide();
+    }
     match session.check(now) {
         Some(News::Placed(placed)) => flight.rearrange(&placed),
+        Some(News::Moving(source)) => flight.set_motion(source),
         Some(News::Whole(source)) => flight.show(source),
         None => {}
     }
@@ -241,6 +264,7 @@ fn show(
     let mut studio = std::mem::take(&mut session.studio);
     let tasks: Vec<Task> = flight.tasks(studio.language.text()).into_iter().chain(session.tasks()).collect();
     let masks = textures.masks();
+    let versions = session.versions_in_words();
     let mut view = View {
         desk: session.desk.as_ref().map(|desk| DeskView {
             draft: desk.draft(),
@@ -260,7 +284,7 @@ fn show(
         recent: &session.recent_files,
         message: session.message.as_ref(),
         question: session.question.as_ref(),
-        versions: &session.versions,
+        versions: &versions,
         ..View::default()
     };
     studio_ui(&mut root, &mut studio, &mut view);
@@ -272,6 +296,7 @@ fn show(
         flight.draw_into(image);
     }
     let is_busy = session.question.is_some() || session.dialog.is_some();
+    flight.end_path(session.path().as_ref());
     flight.hold_still(!session.studio.motion_preview);
     flight.point_at(out.tour_pointer);
     flight.listen(out.pointer_over_tour && !out.text_has_focus && !is_busy);

@@ -19,7 +19,7 @@ const LONGEST: u32 = 4096;
 /// What egui draws.
 #[derive(Resource, Default)]
 pub(super) struct Textures {
-    picture: Option<(Arc<DecodedPicture>, TextureId)>,
+    picture: Option<(Arc<DecodedPicture>, TextureId, Handle<Image>)>,
     masks: Vec<(String, Arc<Mask>, TextureId, Handle<Image>)>,
     tour: Option<(UVec2, TextureId, Handle<Image>)>,
 }
@@ -35,19 +35,23 @@ impl Textures {
         let desk = session.desk.as_ref();
         let picture = desk.and_then(|desk| desk.picture());
         let same = match (&self.picture, picture) {
-            (Some((old, _)), Some(new)) => Arc::ptr_eq(old, new),
+            (Some((old, ..)), Some(new)) => Arc::ptr_eq(old, new),
             (None, None) => true,
             _ => false,
         };
         if !same {
+            if let Some((.., old)) = self.picture.take() {
+                contexts.remove_image(&old);
+            }
             self.picture = picture.map(|picture| {
                 let of = &picture.picture;
                 let image = scaled_image(of.size(), |at| {
                     let [r, g, b] = of.pixel(at.x, at.y);
                     [r, g, b, 255]
                 });
-                let id = contexts.add_image(EguiTextureHandle::Strong(images.add(image)));
-                (Arc::clone(picture), id)
+                let handle = images.add(image);
+                let id = contexts.add_image(EguiTextureHandle::Strong(handle.clone()));
+                (Arc::clone(picture), id, handle)
             });
         }
         let drawn = desk.map(|desk| desk.draft().masks.iter()).into_iter().flatten();
@@ -103,7 +107,7 @@ impl Textures {
 
     /// The picture, at the size to which the document's numbers refer.
     pub(super) fn picture(&self, session: &Session) -> Option<PictureView> {
-        let (picture, texture) = self.picture.as_ref()?;
+        let (picture, texture, _) = self.picture.as_ref()?;
         let marked = session.desk.as_ref()?.tour().picture.size;
         Some(PictureView { texture: *texture, size: marked.unwrap_or(picture.picture.size()) })
     }

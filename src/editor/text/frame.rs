@@ -78,6 +78,7 @@ texts! {
 texts! {
     /// Work in the background, and what became of it.
     Work, WORK {
+        tracing: "Finding edges",
         growing: "Growing the region",
         outlining: "Finding the outline",
         looking: "Looking for a reflection",
@@ -87,6 +88,7 @@ texts! {
         drafted_advice: "The lamps show what to mend. Undo takes it all back.",
         nothing_found: "Nothing to propose",
         saved: "Saved {}",
+        taken: "“{}” is there already: save under another name, or open it",
         left_behind: "Not copied, because another simulator made it: {}",
         open_title: "Open a picture or a tour",
         save_title: "Save the tour as",

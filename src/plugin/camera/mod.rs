@@ -167,8 +167,14 @@ pub(super) fn move_cameras(
             state.guide = camera.guide;
         }
         state.tour = Some(tour);
+        let look_limit = camera.visitor.look_limit.min(solved.scene.bounds.look);
+        let manner = VisitorSettings { scale: solved.scene.bounds.nearest, look_limit, ..camera.visitor };
         if state.guide != camera.guide {
             state.left = state.pose.map(|pose| (pose, 0.0));
+            // A visitor goes on from where somebody else has brought the camera.
+            if let Some(pose) = state.pose.filter(|_| camera.guide == Guide::Visitor) {
+                state.visitor = Visitor::at(&pose, &manner, &home, bounds);
+            }
             state.guide = camera.guide;
         }
         let roll = if camera.guide == Guide::Free { home.angles().2 } else { 0.0 };
@@ -184,9 +190,6 @@ pub(super) fn move_cameras(
         let wish = std::mem::take(&mut state.wish);
         match camera.guide {
             Guide::Visitor => {
-                let look_limit = camera.visitor.look_limit.min(solved.scene.bounds.look);
-                let scale = solved.scene.bounds.nearest;
-                let manner = VisitorSettings { scale, look_limit, ..camera.visitor };
                 state.visitor = state.visitor.step(&manner, &home, bounds, &wish, seconds);
                 let pose = state.visitor.pose(&manner, &home, bounds);
                 state.take_over(pose, seconds);

@@ -172,6 +172,11 @@ impl History {
         self.saved = Some(self.state());
     }
 
+    /// Notes that no state's file says the same.
+    pub fn mark_unsaved(&mut self) {
+        self.saved = None;
+    }
+
     /// Only now nothing more can be redone: a gesture may be cancelled.
     fn finish(&mut self, step: Step) {
         self.future.clear();

@@ -47,6 +47,8 @@ struct Files {
     text: Option<String>,
     /// The picture's file, once it is found.
     picture: Option<PathBuf>,
+    /// Pictures that were on the desk, by the name the tour had for them: steps that are undone bring them back.
+    seen: BTreeMap<String, (PathBuf, Arc<DecodedPicture>)>,
     /// Masks as their files have them; others have no file, or an older one.
     masks: Masks,
     /// The desk's masks and the names their files have: those of another tour are never overwritten.
@@ -63,6 +65,8 @@ struct Recovery {
     /// When it was written, in the seconds of [`Desk::autosave`].
     written: Option<f64>,
     packed: recovery::Packed,
+    /// Whether this desk wrote it; one that was taken stays until its marks are saved.
+    is_own: bool,
 }
 
 impl Desk {
@@ -131,7 +135,9 @@ impl Desk {
     /// # Errors
     /// As [`History::cancel_gesture`].
     pub fn cancel_gesture(&mut self) -> Result<(), EditError> {
-        self.history.cancel_gesture(&mut self.draft)
+        let done = self.history.cancel_gesture(&mut self.draft);
+        self.follow_picture();
+        done
     }
 
     /// Undoes the last step; its title.
@@ -139,7 +145,9 @@ impl Desk {
     /// # Errors
     /// As [`History::undo`].
     pub fn undo(&mut self) -> Result<Option<Title>, EditError> {
-        self.history.undo(&mut self.draft)
+        let done = self.history.undo(&mut self.draft);
+        self.follow_picture();
+        done
     }
 
     /// Does again what was undone last; its title.
@@ -147,7 +155,9 @@ impl Desk {
     /// # Errors
     /// As [`History::redo`].
     pub fn redo(&mut self) -> Result<Option<Title>, EditError> {
-        self.history.redo(&mut self.draft)
+        let done = self.history.redo(&mut self.draft);
+        self.follow_picture();
+        done
     }
 }
 

@@ -1,5 +1,6 @@
 //! Opening a picture or a tour, finding a picture that has moved, and taking what a crash left.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -63,8 +64,9 @@ impl Desk {
             tour,
             text: None,
             picture: Some(path.to_owned()),
+            seen: BTreeMap::new(),
             masks: Masks::default(),
-            mask_names: std::collections::BTreeMap::new(),
+            mask_names: BTreeMap::new(),
             recovery: Recovery::default(),
         };
         // There is nothing yet that closing would lose.
@@ -107,6 +109,7 @@ impl Desk {
             tour: path.to_owned(),
             text: Some(text),
             picture: picture_file,
+            seen: BTreeMap::new(),
             masks: masks.clone(),
             mask_names,
             recovery: Recovery::default(),
@@ -134,9 +137,31 @@ impl Desk {
             Edit::Mask { name: name.to_owned(), mask: Some(mask) }
         });
         let edit = Edit::Many(std::iter::once(Edit::Picture(source)).chain(resized).collect());
-        self.apply(&edit)?;
+        self.remember_picture();
+        let is_elsewhere = !self.apply(&edit)? && self.files.picture.as_deref() != Some(path);
         (self.picture, self.files.picture) = (Some(Arc::new(picture)), Some(path.to_owned()));
+        self.remember_picture();
+        if is_elsewhere {
+            // The document says the same, but its file is not where the document is.
+            self.history.mark_unsaved();
+        }
         Ok(())
+    }
+
+    /// Keeps the picture for steps that are undone.
+    fn remember_picture(&mut self) {
+        if let (Some(path), Some(picture)) = (&self.files.picture, &self.picture) {
+            let name = self.draft.tour.picture.file.clone();
+            self.files.seen.insert(name, (path.clone(), Arc::clone(picture)));
+        }
+    }
+
+    /// Lays the picture on the desk that the document names.
+    pub(super) fn follow_picture(&mut self) {
+        let name = &self.draft.tour.picture.file;
+        if let Some((path, picture)) = self.files.seen.get(name) {
+            (self.picture, self.files.picture) = (Some(Arc::clone(picture)), Some(path.clone()));
+        }
     }
 
     /// Takes what an interrupted session left. It can be undone, and the file goes with the next save.
@@ -145,7 +170,7 @@ impl Desk {
     /// When the draft cannot be changed; the file is then still there.
     pub fn recover(&mut self, recovered: Recovered) -> Result<(), EditError> {
         self.put(recovered.tour, &recovered.masks)?;
-        self.files.recovery.path = Some(recovered.path);
+        (self.files.recovery.path, self.files.recovery.is_own) = (Some(recovered.path), false);
         self.files.recovery.revision = self.history.revision();
         Ok(())
     }
@@ -187,7 +212,10 @@ impl Desk {
         ];
         let masks = masks.iter().map(|(name, mask)| (name.to_owned(), Some(PackedMask::new(mask))));
         parts.extend(masks.map(|(name, mask)| Part::Mask(name, mask)));
-        self.apply(&Edit::Restore(Restored(parts))).map(drop)
+        self.remember_picture();
+        self.apply(&Edit::Restore(Restored(parts)))?;
+        self.follow_picture();
+        Ok(())
     }
 }
 

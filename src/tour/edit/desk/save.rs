@@ -63,15 +63,20 @@ impl Desk {
     /// When something cannot be written; the desk then goes on with the old tour.
     pub fn save_as(&mut self, path: &Path) -> Result<Saved, DeskError> {
         self.end_gesture();
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let is_tour = Path::new(&*name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
-        let path =
-            if is_tour { path.to_owned() } else { path.with_file_name(format!("{name}{TOUR_ENDING}")) };
+        let path = Self::file_of(path);
         if path.is_dir() {
             return Err(DeskError::IsFolder { path });
         }
         let names = if path == self.files.tour { self.files.mask_names.clone() } else { BTreeMap::new() };
         self.write(&path, names)
+    }
+
+    /// The file that [`save_as`](Self::save_as) writes for a name.
+    #[must_use]
+    pub fn file_of(path: &Path) -> PathBuf {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let is_tour = Path::new(&*name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
+        if is_tour { path.to_owned() } else { path.with_file_name(format!("{name}{TOUR_ENDING}")) }
     }
 
     fn write(&mut self, path: &Path, mut names: BTreeMap<String, String>) -> Result<Saved, DeskError> {
@@ -153,7 +158,9 @@ impl Desk {
     /// When it cannot be written: the marks are then on the desk only, and the user had better save elsewhere.
     pub fn autosave(&mut self, now: f64, every: f64) -> Result<bool, DeskError> {
         if self.history.is_saved() {
-            self.remove_recovery();
+            if self.files.recovery.is_own {
+                self.remove_recovery();
+            }
             return Ok(false);
         }
         let state = &mut self.files.recovery;
@@ -166,13 +173,16 @@ impl Desk {
         state.written = Some(now);
         let path = state.path.clone().unwrap_or_else(|| recovery::free_file(&self.files.tour));
         recovery::write(&path, &self.draft, &mut state.packed)?;
-        (state.path, state.revision) = (Some(path), self.history.revision());
+        (state.path, state.revision, state.is_own) = (Some(path), self.history.revision(), true);
         Ok(true)
     }
 
-    /// Closes the desk and removes its recovery file: what is not saved is given up, as the user was asked.
+    /// Closes the desk and removes its recovery file: what is not saved is given up, as the user was asked. What was
+    /// recovered and undone again stays to be offered.
     pub fn close(mut self) {
-        self.remove_recovery();
+        if self.files.recovery.is_own || !self.is_saved() {
+            self.remove_recovery();
+        }
     }
 
     /// Removes the recovery file that this desk wrote or took. One that stays is offered again, which loses nothing.
@@ -187,6 +197,17 @@ impl Desk {
     pub fn free_mask_name(&self, of: &str) -> String {
         let folder = folder_of(&self.files.tour);
         self.draft.masks.free_name_besides(of, |name| folder.join(name).exists())
+    }
+
+    /// A path for a folder of new masks that neither the draft nor the tour's folder has: `masks/draft`, `masks/draft-2`, …
+    #[must_use]
+    pub fn free_mask_folder(&self, of: &str) -> String {
+        let folder = folder_of(&self.files.tour);
+        let holds_masks = |name: &str| {
+            let mut masks = self.draft.masks.iter();
+            masks.any(|(mask, _)| mask.strip_prefix(name).is_some_and(|rest| rest.starts_with('/')))
+        };
+        free_name(&format!("masks/{of}"), "", |name| holds_masks(name) || folder.join(name).exists())
     }
 }
 
