@@ -4,13 +4,16 @@
 //! which `check` and `bands` measure; maps with smooth fills, which a preview waits for; with patches inside the picture, and beyond it as well; everything.
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Duration;
 
-use bevy_picture_tour::assemble::{TourSource, assemble, measure_depth, place};
+use bevy_picture_tour::assemble::{TourOnDisk, TourSource, assemble, measure_depth, place};
 use bevy_picture_tour::maps::{MapOptions, Maps};
-use bevy_picture_tour::picture::decode_picture;
+use bevy_picture_tour::picture::{Mask, decode_mask, decode_picture};
+use bevy_picture_tour::tour::RelativePath;
 use criterion::Criterion;
 
 fn main() {
@@ -31,6 +34,23 @@ fn main() {
     group.bench_function("open: tour, picture and masks", |bencher| bencher.iter(open));
     group.bench_function("distances by the mirror image", |bencher| {
         bencher.iter(|| measure_depth(black_box(&source), &scene.camera, &|_| true).unwrap());
+    });
+    // What follows the hand while a mark is dragged in the studio: no map is built for it.
+    let decoded = decode_picture(&png, "lake.png").unwrap();
+    let tour = TourOnDisk::open(&file).unwrap().tour;
+    let masks_at_hand = RefCell::new(HashMap::<String, Mask>::new());
+    let mask_of = |_: &str, name: &RelativePath| {
+        let read = || {
+            decode_mask(
+                &std::fs::read(name.in_folder(&folder)).unwrap(),
+                name.as_str(),
+                decoded.picture.size(),
+            )
+        };
+        Ok(masks_at_hand.borrow_mut().entry(name.to_string()).or_insert_with(|| read().unwrap()).clone())
+    };
+    group.bench_function("a mark: check, solve, place", |bencher| {
+        bencher.iter(|| place(&TourSource::of(&tour, decoded.clone(), &mask_of).unwrap()).unwrap());
     });
     let ways = [
         ("maps, smooth fills", MapOptions::PREVIEW),

@@ -73,7 +73,7 @@ drag 522 466 668 542
 await 60 "the boat's mask" sh -c "sleep 3; test \"$work/.pond.tour.ron.recovery\" -nt \"$out/2_outline.png\""
 sleep 4
 shot 3_boat
-drag 1200 480 1080 490 # look to the right in the tour
+drag 1300 340 1160 346 # look to the right in the tour
 shot 4_flight
 press 5
 shot 5_report
