@@ -64,10 +64,7 @@ fn a_known_length_sets_the_scale() {
     let mut annotations = picture.annotations(8);
     let pair = annotations.pairs[2].clone();
     let [left, right] = annotations.planes[2].contact;
-    let ends = [left, right].map(|foot| {
-        let ray = picture.truth.camera(SIZE).ray(foot);
-        ray.at(-ray.origin.y / ray.direction.y)
-    });
+    let ends = [left, right].map(|foot| picture.truth.camera(SIZE).on_level(foot, 0.0).unwrap());
     let meters = ends[0].distance(ends[1]);
     annotations.scale = Scale::Length { on: 2, from: left, to: right, meters };
     let solution = solved(&annotations);
