@@ -1,11 +1,12 @@
 //! What each kind of evidence gives, alone and against others.
 
-use glam::DVec3;
+use glam::{DVec3, UVec2};
 
 use super::Kind;
 use super::Picture;
 use super::Random;
 use super::SIZE;
+use crate::picture::Lens;
 use crate::picture::PicturePoint;
 use crate::solve::AnnotatedPlane;
 use crate::solve::Annotations;
@@ -56,6 +57,18 @@ fn a_horizon_alone_is_enough_and_nothing_is_not() {
     assert_eq!(report.parameter("background_distance").unwrap().label, Label::Assumed);
     annotations.horizon = None;
     assert_eq!(solve(&annotations), Err(SolveError::NothingToSolveFrom { found: 0 }));
+}
+
+#[test]
+fn a_lens_tells_the_focal_length_of_whole_frames_only() {
+    let lens = |whole_frame| Some(Lens { focal_35mm: 36.0, whole_frame });
+    let size = UVec2::new(3000, 2000);
+    let FocalLength::Prior { px, .. } = FocalLength::of_lens(lens(true), size) else {
+        panic!("nothing is known of a whole frame");
+    };
+    assert!((px - 3000.0).abs() < 1e-9, "{px} px");
+    assert_eq!(FocalLength::of_lens(lens(false), size), FocalLength::Unknown);
+    assert_eq!(FocalLength::of_lens(None, size), FocalLength::Unknown);
 }
 
 #[test]
