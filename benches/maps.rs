@@ -1,4 +1,4 @@
-//! How long a tour takes from its files to being ready, by stages, on the demo (1920 × 1080, three bodies).
+//! How long a tour takes from its files to being ready, by stages, on the demo (1920 × 1080, four bodies).
 //!
 //! Stages of one run are to be compared with each other: reading and decoding alone; distances by the mirror image,
 //! which `check` and `bands` measure; maps with smooth fills, which a preview waits for; with patches inside the picture, and beyond it as well; everything.

@@ -1,6 +1,6 @@
 //! What moving costs a frame on the CPU: one step of the demo in a wind, with the boat afloat and sixteen swaying trees.
 //!
-//! What must hold on one core: at most 2.5 ms. Beside it, in the same run: the step of a still tour, and of 1 and 64 trees
+//! What must hold on one core: at most 2.5 ms. Beside it, in the same run: the step of a still tour, and of 1 and 56 trees
 //! without water.
 #![allow(clippy::unwrap_used, reason = "a bench may panic")]
 

@@ -14,9 +14,6 @@ use crate::tour::Medium;
 
 use super::TourSource;
 
-/// Deviation of ln f read from EXIF (notes §1.3).
-const EXIF_DEVIATION: f64 = 0.03;
-
 /// Deviations of marks in pixels: a point; a reflection sideways; a reflection up and down, where ripples blur it.
 const MARK_PX: f64 = 1.0;
 const RIPPLED_PX: f64 = 3.0;
@@ -69,17 +66,12 @@ pub fn annotations(source: &TourSource) -> Annotations {
 }
 
 fn focal(source: &TourSource) -> FocalLength {
-    let exif = || match (source.tour.picture.medium, source.lens) {
-        (Medium::Photograph, Some(lens)) if lens.whole_frame => {
-            FocalLength::Prior { px: lens.focal_px(source.uncropped_size), ln_deviation: EXIF_DEVIATION }
-        }
-        _ => FocalLength::Unknown,
-    };
+    let is_photograph = source.tour.picture.medium == Medium::Photograph;
     match source.tour.camera.focal_length {
         tour::FocalLength::Known(px) => FocalLength::Known(px),
         tour::FocalLength::Between(low, high) => FocalLength::Between(low, high),
-        tour::FocalLength::Exif => exif(),
-        tour::FocalLength::Unknown => FocalLength::Unknown,
+        tour::FocalLength::Exif if is_photograph => FocalLength::of_lens(source.lens, source.uncropped_size),
+        tour::FocalLength::Exif | tour::FocalLength::Unknown => FocalLength::Unknown,
     }
 }
 

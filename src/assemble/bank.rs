@@ -96,11 +96,8 @@ fn face_px(camera: &PinholeCamera, ground_height: f64, x: u32, foot: f64) -> f64
 
 /// The picture's point straight above a point of the waterline at the ground's height.
 fn edge_above(camera: &PinholeCamera, ground_height: f64, foot: PicturePoint) -> Option<PicturePoint> {
-    let ray = camera.ray(foot);
-    let t = -ray.origin.y / ray.direction.y;
-    let mut point = ray.at(t);
-    point.y = ground_height;
-    (t > 0.0 && point.is_finite()).then(|| camera.project(point))?
+    let at_water = camera.on_level(foot, 0.0)?;
+    camera.project(at_water.with_y(ground_height))
 }
 
 /// Runs of the waterline as straight pieces, each from its left to its right end (Ramer, Douglas and Peucker). Straight
@@ -195,8 +192,7 @@ mod tests {
             (0, 255, 255)
         );
         assert_eq!((level.get(200, 189), level.get(200, 190)), (255, 0));
-        let foot = camera.ray(bank.plan.contact[0]);
-        let depth = -foot.at(-foot.origin.y / foot.direction.y).z;
+        let depth = -camera.on_level(bank.plan.contact[0], 0.0).expect("the foot is seen").z;
         assert!((depth - 10.0).abs() < 0.01, "the wall stands at {depth} m instead of 10 m");
     }
 

@@ -111,6 +111,16 @@ impl PinholeCamera {
         }
     }
 
+    /// What a picture point shows, if that lies `height` meters above the resting water; `None` where the ray through it never
+    /// comes to that height.
+    #[must_use]
+    pub fn on_level(&self, point: PicturePoint, height: f64) -> Option<DVec3> {
+        let ray = self.ray(point);
+        let t = (height - ray.origin.y) / ray.direction.y;
+        let place = ray.at(t);
+        (t > 0.0 && place.is_finite()).then_some(place)
+    }
+
     /// The two ends of the horizon (vanishing line of the water) at the picture's left and right border.
     ///
     /// `None` when the camera looks straight down or up.
@@ -163,6 +173,19 @@ mod tests {
             let homogeneous = camera.picture_from_world_direction() * ray.direction;
             let seen = homogeneous.truncate() / homogeneous.z;
             assert!(seen.distance(point.0) < 1e-9, "{seen} is not {point}");
+        }
+    }
+
+    #[test]
+    fn a_point_on_a_level_is_seen_where_it_was_looked_for_and_none_above_the_horizon() {
+        let camera = camera();
+        let [end, _] = camera.horizon().unwrap();
+        for height in [0.0, 0.7] {
+            let point = PicturePoint::new(0.0, end.y() + 40.0);
+            let place = camera.on_level(point, height).unwrap();
+            assert!((place.y - height).abs() < 1e-12, "{place} is not {height} m high");
+            assert!(camera.project(place).unwrap().0.distance(point.0) < 1e-9);
+            assert_eq!(camera.on_level(PicturePoint::new(0.0, end.y() - 40.0), height), None);
         }
     }
 

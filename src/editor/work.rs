@@ -47,11 +47,7 @@ impl<'a> Work<'a> {
 
     /// The point of the resting water that a picture point shows; `None` on and above the horizon.
     pub(super) fn water_at(&self, point: PicturePoint) -> Option<Waypoint> {
-        let solution = self.solution()?;
-        let depth = solution.parameters.depth_on_water(point)?;
-        // The ray's direction has view depth 1, not depth along −z, so it is scaled by what it reaches.
-        let ray = self.camera()?.ray(point);
-        let hit = ray.at(depth / -ray.direction.z);
+        let hit = self.camera()?.on_level(point, 0.0)?;
         Some(Waypoint(DVec2::new(hit.x, hit.z)))
     }
 

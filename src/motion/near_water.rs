@@ -3,7 +3,7 @@
 //! The grid of the ripples lies fixed before the picture's camera. What stands in the water is a wall in it; ground that
 //! reaches the water is not yet, and waves run out under it. What floats or sails is no wall: it presses on the water.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3, Vec3Swizzles};
 
 use crate::camera::PinholeCamera;
 use crate::picture::PicturePoint;
@@ -111,10 +111,7 @@ fn grid(camera: &PinholeCamera) -> RippleGrid {
 
 /// Where the resting water is that a picture point shows; `None` at and above the horizon.
 fn on_water(camera: &PinholeCamera, point: PicturePoint) -> Option<DVec2> {
-    let ray = camera.ray(point);
-    let t = -ray.origin.y / ray.direction.y;
-    let place = ray.at(t);
-    (t > 0.0 && place.is_finite()).then(|| DVec2::new(place.x, place.z))
+    camera.on_level(point, 0.0).map(DVec3::xz)
 }
 
 /// Whether an object throws waves back.

@@ -52,15 +52,19 @@ pub fn save_png(path: &Path, size: UVec2, pixels: PngPixels<'_>) -> Result<(), P
     write_whole(path, &png).map_err(|source| PictureError::Write { path: path.to_owned(), source })
 }
 
+/// The folder of a file; the current one for a mere name.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
 /// Writes beside the file first: a rename is one step only within a folder's file system.
 fn write_whole(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".").suffix(".png.part");
     // Temporary files are private by default; a picture gets what the user's umask leaves.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
+    let mut file = builder.tempfile_in(folder_of(path))?;
     file.write_all(bytes)?;
     file.persist(path).map_err(|error| error.error)?;
     Ok(())

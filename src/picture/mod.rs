@@ -16,6 +16,7 @@ mod raster;
 mod space;
 
 pub use decode::{DecodedPicture, MAX_PIXELS, MAX_SIDE, decode_mask, decode_picture};
+pub(crate) use encode::folder_of;
 pub use encode::{PngPixels, encode_png, save_png};
 pub use error::PictureError;
 pub use heights::{HeightField, HeightSamples, decode_heights};

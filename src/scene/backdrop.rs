@@ -115,12 +115,9 @@ fn frontal(distance: f64) -> Wall {
 fn contact_wall(camera: &PinholeCamera, points: &[PicturePoint]) -> Option<Wall> {
     let feet: Vec<DVec2> = points
         .iter()
-        .filter_map(|&point| {
-            let ray = camera.ray(point);
-            let t = -ray.origin.y / ray.direction.y;
-            let foot = ray.at(t);
-            (t > 0.0 && foot.is_finite() && -foot.z < DISTANCES[1]).then(|| DVec2::new(foot.x, foot.z))
-        })
+        .filter_map(|&point| camera.on_level(point, 0.0))
+        .filter(|foot| -foot.z < DISTANCES[1])
+        .map(|foot| DVec2::new(foot.x, foot.z))
         .collect();
     let mut depths: Vec<f64> = feet.iter().map(|foot| -foot.y).collect();
     depths.sort_by(f64::total_cmp);

@@ -117,11 +117,7 @@ fn ground_level(camera: &PinholeCamera, height: f64, background_distance: f64) -
     // The lowest ray of the picture says where the ground comes into sight; it is kept from there a bit nearer.
     let nearest = [0.0, size.x]
         .into_iter()
-        .filter_map(|x| {
-            let ray = camera.ray(PicturePoint::new(x, size.y));
-            let t = (height - ray.origin.y) / ray.direction.y;
-            (t > 0.0 && t.is_finite()).then(|| -ray.at(t).z)
-        })
+        .filter_map(|x| Some(-camera.on_level(PicturePoint::new(x, size.y), height)?.z))
         .fold(far, f64::min);
     let reach = far * size.x / camera.intrinsics.focal_px;
     Level { height, low: DVec2::new(-reach, -far), high: DVec2::new(reach, -0.25 * nearest) }

@@ -6,7 +6,7 @@
 use glam::UVec2;
 use serde::{Deserialize, Serialize};
 
-use crate::picture::PicturePoint;
+use crate::picture::{Lens, PicturePoint};
 use crate::tour::Method;
 use crate::tour::Support;
 
@@ -66,6 +66,21 @@ pub enum FocalLength {
     },
     /// Not known: guessed from the picture's diagonal.
     Unknown,
+}
+
+impl FocalLength {
+    /// Deviation of ln f read from EXIF (notes §1.3).
+    const EXIF_DEVIATION: f64 = 0.03;
+
+    /// What a file's lens tells of a picture that is `size` pixels large before any crop; nothing where it is not known to
+    /// show the whole frame.
+    #[must_use]
+    pub fn of_lens(lens: Option<Lens>, size: UVec2) -> Self {
+        lens.filter(|lens| lens.whole_frame).map_or(Self::Unknown, |lens| Self::Prior {
+            px: lens.focal_px(size),
+            ln_deviation: Self::EXIF_DEVIATION,
+        })
+    }
 }
 
 /// The one length that turns ratios into meters.

@@ -53,9 +53,7 @@ impl SceneParameters {
     /// `None` where the ray through `point` never comes to that height.
     #[must_use]
     pub fn depth_on_level(&self, point: PicturePoint, level_height: f64) -> Option<f64> {
-        let ray = self.camera(UVec2::ONE).ray(point);
-        let length = (level_height - ray.origin.y) / ray.direction.y;
-        let depth = -ray.at(length).z;
-        (length > 0.0 && depth > 0.0 && depth.is_finite()).then_some(depth)
+        let depth = -self.camera(UVec2::ONE).on_level(point, level_height)?.z;
+        (depth > 0.0).then_some(depth)
     }
 }

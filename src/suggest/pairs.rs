@@ -16,9 +16,6 @@ use crate::tour::{ASSUMED_HEIGHT, Method, ReflectionPair};
 /// Most pairs that are proposed.
 pub const MOST_PAIRS: usize = 20;
 
-/// Deviation of ln f read from EXIF (notes §1.3).
-const EXIF_DEVIATION: f64 = 0.03;
-
 /// A pair to propose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SuggestedPair {
@@ -41,12 +38,6 @@ pub struct SuggestedPairs {
 
 /// Evidence that consists of these pairs alone, with deviations as they were measured.
 pub(super) fn annotations(size: UVec2, lens: Option<Lens>, pairs: &[SuggestedPair]) -> Annotations {
-    let focal = match lens {
-        Some(lens) if lens.whole_frame => {
-            FocalLength::Prior { px: lens.focal_px(size), ln_deviation: EXIF_DEVIATION }
-        }
-        _ => FocalLength::Unknown,
-    };
     Annotations {
         size,
         uncropped_size: size,
@@ -54,7 +45,7 @@ pub(super) fn annotations(size: UVec2, lens: Option<Lens>, pairs: &[SuggestedPai
         principal_deviation_px: Annotations::PRINCIPAL_DEVIATION * f64::from(size.x),
         horizon: None,
         horizon_deviation_px: Annotations::HORIZON_DEVIATION_PX,
-        focal,
+        focal: FocalLength::of_lens(lens, size),
         scale: Scale::HeightAboveWater { meters: ASSUMED_HEIGHT, assumed: true },
         planes: Vec::new(),
         background: BackgroundHint::FromPairs,

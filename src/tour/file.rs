@@ -18,6 +18,9 @@ use super::weather::{RecordedSea, Sea, Waves, Wind};
 /// The version of the format that this program writes.
 pub const VERSION: u32 = 1;
 
+/// What a tour file's name ends in.
+pub const TOUR_ENDING: &str = ".tour.ron";
+
 /// The camera's height above the water (or ground) when the document does not say: an adult's eyes, meters.
 pub const ASSUMED_HEIGHT: f64 = 1.7;
 

@@ -5,7 +5,7 @@ mod check;
 pub mod edit;
 mod file;
 mod fit;
-mod geometry;
+pub(crate) mod geometry;
 mod journey;
 mod known_fields;
 mod locate;
@@ -22,7 +22,7 @@ pub use annotation::{
     Background, BackgroundPlace, Band, CameraNotes, Crop, Drift, FocalLength, GroundArea, Medium, Method,
     PictureSource, ReflectionPair, Region, Scale, Sky, WaterArea,
 };
-pub use file::{ASSUMED_HEIGHT, Document, TourFile, VERSION};
+pub use file::{ASSUMED_HEIGHT, Document, TOUR_ENDING, TourFile, VERSION};
 pub use journey::{CameraPath, Keyframe};
 pub use object::{Course, Floating, Motion, Object, Recorded, Support, Sway, SwayKind, Waypoint};
 pub use problem::{Place, Problem, Problems};

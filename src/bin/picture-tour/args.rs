@@ -3,6 +3,9 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
+use bevy_picture_tour::motion::LONGEST_LOOP;
+use bevy_picture_tour::motion::LoopError;
+use bevy_picture_tour::motion::SHORTEST_LOOP;
 use clap::Args;
 use clap::Parser;
 use clap::Subcommand;
@@ -125,14 +128,14 @@ pub(crate) struct RenderArguments {
     /// Render the tour's camera path, as `frame_00000.png` and so on
     #[arg(long, conflicts_with = "at")]
     pub(crate) path: bool,
-    /// Render a film that begins anew after this many seconds (8 or more) without a seam
+    /// Render a film that begins anew after this many seconds (8 to 3600) without a seam
     ///
     /// Waves, wind and courses are fitted to it. The camera stays where the picture was taken, or goes whole rounds of the
     /// tour's path with --path.
-    #[arg(long = "loop", value_name = "SECONDS", value_parser = parse_seconds, conflicts_with_all = ["at", "still"])]
+    #[arg(long = "loop", value_name = "SECONDS", value_parser = parse_loop, conflicts_with_all = ["at", "still"])]
     pub(crate) loop_seconds: Option<f64>,
     /// Only these frames of the path or loop: from A up to, not including, B (either may be left out)
-    #[arg(long, value_name = "A..B", value_parser = parse_frames)]
+    #[arg(long, value_name = "A..B", value_parser = parse_frames, conflicts_with_all = ["views", "at"])]
     pub(crate) frames: Option<Frames>,
     /// Render one frame this many seconds after the start, from where the path's camera is then
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
@@ -225,6 +228,16 @@ fn parse_seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Before any frame is planned: a year of them would not fit into memory.
+fn parse_loop(text: &str) -> Result<f64, String> {
+    let seconds = parse_seconds(text)?;
+    if (SHORTEST_LOOP..=LONGEST_LOOP).contains(&seconds) {
+        Ok(seconds)
+    } else {
+        Err(LoopError::Length(seconds).to_string())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
@@ -243,6 +256,26 @@ mod tests {
         for bad in ["", "12", "0x5", "16385x2", "-1x4", "ax4", "4x4x4"] {
             assert!(parse_size(bad).is_err(), "{bad:?} was taken for a size");
         }
+    }
+
+    #[test]
+    fn loops_are_neither_short_nor_endless() {
+        assert_eq!(parse_loop("8"), Ok(8.0));
+        assert_eq!(parse_loop("3600s"), Ok(3600.0));
+        for bad in ["7.9", "3600.1", "1e9", "NaN", "-9", ""] {
+            assert!(parse_loop(bad).is_err(), "{bad:?} was taken for the length of a loop");
+        }
+    }
+
+    #[test]
+    fn frames_belong_to_films() {
+        let render = |more: &str| {
+            Arguments::try_parse_from(
+                ["picture-tour", "render", "--out", "o"].into_iter().chain(more.split(' ')),
+            )
+        };
+        assert!(render("--path --frames 0..3").is_ok() && render("--loop 8 --frames 0..3").is_ok());
+        assert!(render("--at 3 --frames 0..3").is_err() && render("--views v.json --frames 0..3").is_err());
     }
 
     #[test]

@@ -13,18 +13,7 @@ use crate::open;
 use crate::table::Table;
 
 /// Drafts a tour of a picture, which stands in `file` from the tour's folder, and writes it with its masks.
-pub(crate) fn write(
-    decoded: &DecodedPicture,
-    file: &RelativePath,
-    out: &Path,
-    force: bool,
-) -> Result<(), Failure> {
-    if out.exists() && !force {
-        return Err(Failure::CannotRun(format!(
-            "{} is already there; name another file with --out, or replace it with --force",
-            out.display()
-        )));
-    }
+pub(crate) fn write(decoded: &DecodedPicture, file: &RelativePath, out: &Path) -> Result<(), Failure> {
     let folder = beside::new_masks_folder(out)?;
     let bar = open::bar("looking for a reflection");
     let drafted =

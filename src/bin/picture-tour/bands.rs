@@ -7,10 +7,10 @@ use std::process::ExitCode;
 use bevy_picture_tour::assemble::BandError;
 use bevy_picture_tour::assemble::CutOptions;
 use bevy_picture_tour::assemble::cut_bands;
+use bevy_picture_tour::tour::TOUR_ENDING;
 
 use crate::args::BandsArguments;
 use crate::beside;
-use crate::beside::ENDING;
 use crate::depth;
 use crate::failure::Failure;
 use crate::open;
@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &BandsArguments) -> Result<ExitCode, Failure> {
     let disk = open::on_disk(path)?;
     let out = match &arguments.out {
         Some(out) => out.clone(),
-        None => path.with_file_name(format!("{}.bands{ENDING}", beside::stem(path)?)),
+        None => path.with_file_name(format!("{}.bands{TOUR_ENDING}", beside::stem(path)?)),
     };
     if beside::folder(&out).canonicalize().ok() != beside::folder(path).canonicalize().ok() {
         return Err(cannot(format!(
@@ -35,12 +35,7 @@ pub(crate) fn run(arguments: &BandsArguments) -> Result<ExitCode, Failure> {
             path.display()
         )));
     }
-    if out.exists() && !arguments.force {
-        return Err(cannot(format!(
-            "{} is already there; name another file with --out, or replace it with --force",
-            out.display()
-        )));
-    }
+    beside::refuse_existing(&out, arguments.force)?;
     let masks = beside::new_masks_folder(&out)?;
     let options = CutOptions { folder: masks.clone(), anew: arguments.anew };
     let source = disk.source().map_err(Failure::Problems)?;

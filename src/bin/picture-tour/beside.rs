@@ -1,14 +1,22 @@
 //! A tour's file and the new masks beside it, written together or not at all.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use bevy_picture_tour::picture::{Mask, PngPixels, save_png};
-use bevy_picture_tour::tour::{RelativePath, Tour};
+use bevy_picture_tour::tour::{RelativePath, TOUR_ENDING, Tour};
 
 use crate::failure::Failure;
 
-/// Ending of tour files.
-pub(crate) const ENDING: &str = ".tour.ron";
+/// Refuses to replace a file unless that is asked for.
+pub(crate) fn refuse_existing(out: &Path, force: bool) -> Result<(), Failure> {
+    if out.exists() && !force {
+        return Err(Failure::CannotRun(format!(
+            "{} is already there; name another file with --out, or replace it with --force",
+            out.display()
+        )));
+    }
+    Ok(())
+}
 
 /// The name of a folder for the masks of the tour at `out` that is not there yet: masks that are there may be somebody's
 /// work, and other tours name them.
@@ -40,12 +48,12 @@ pub(crate) fn write(
     if masks.is_empty() {
         return tour.save(out).map_err(|error| cannot(&error));
     }
-    let new_folder = masks_folder.in_folder(&folder(out));
+    let new_folder = masks_folder.in_folder(folder(out));
     std::fs::create_dir(&new_folder).map_err(|error| cannot(&error))?;
     let written = masks
         .iter()
         .try_for_each(|(path, mask)| {
-            save_png(&path.in_folder(&folder(out)), mask.size(), PngPixels::Gray(mask.values()))
+            save_png(&path.in_folder(folder(out)), mask.size(), PngPixels::Gray(mask.values()))
                 .map_err(|error| cannot(&error))
         })
         .and_then(|()| tour.save(out).map_err(|error| cannot(&error)));
@@ -57,17 +65,18 @@ pub(crate) fn write(
 }
 
 /// The folder that a file is in.
-pub(crate) fn folder(path: &Path) -> PathBuf {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
+pub(crate) fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// A tour file's name without its ending.
 pub(crate) fn stem(path: &Path) -> Result<String, Failure> {
     let name = path.file_name().and_then(|name| name.to_str());
-    let stem = name.map(|name| name.strip_suffix(ENDING).unwrap_or(name.split('.').next().unwrap_or(name)));
+    let stem =
+        name.map(|name| name.strip_suffix(TOUR_ENDING).unwrap_or(name.split('.').next().unwrap_or(name)));
     stem.filter(|stem| !stem.is_empty()).map(str::to_owned).ok_or_else(|| {
         Failure::CannotRun(format!(
-            "{} is no name for a tour; name one that ends in {ENDING}",
+            "{} is no name for a tour; name one that ends in {TOUR_ENDING}",
             path.display()
         ))
     })

@@ -9,7 +9,6 @@ use bevy::prelude::*;
 use bevy::window::{ExitCondition, PresentMode, WindowCloseRequested, WindowPlugin};
 use bevy_egui::{EguiPlugin, PrimaryEguiContext};
 use bevy_picture_tour::editor::{EditorPlugin, Session};
-use bevy_picture_tour::headless::adapter_exists;
 use bevy_picture_tour::plugin::PictureTourPlugin;
 
 use crate::failure::Failure;
@@ -21,12 +20,7 @@ use crate::play::display;
 ///
 /// Without a display or a graphics adapter.
 pub(crate) fn run(file: Option<PathBuf>) -> Result<ExitCode, Failure> {
-    let missing = match (display::exists(), adapter_exists()) {
-        (true, true) => None,
-        (false, _) => Some("there is no display"),
-        (true, false) => Some("there is no graphics adapter"),
-    };
-    if let Some(missing) = missing {
+    if let Some(missing) = display::missing() {
         return Err(Failure::CannotRun(format!(
             "{missing}, and the studio needs one; `picture-tour new PICTURE --auto` drafts a tour without"
         )));

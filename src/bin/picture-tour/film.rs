@@ -8,6 +8,7 @@ use bevy_picture_tour::picture::Picture;
 use glam::UVec2;
 use tempfile::TempPath;
 
+use crate::beside;
 use crate::failure::Failure;
 
 /// What a film's file may end in, and how `ffmpeg` makes that: players everywhere take 8-bit 4:2:0.
@@ -42,7 +43,7 @@ fn options(path: &Path) -> Option<&'static [&'static str]> {
 impl Film {
     /// Starts a film of frames of a size, so many a second.
     pub(crate) fn start(file: &Path, size: UVec2, fps: u32) -> Result<Self, Failure> {
-        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = beside::folder(file);
         let mut unfinished = tempfile::Builder::new();
         unfinished.prefix(".film-");
         // A temporary file is private; a film is as open as any new file, less what the user's mask takes away.

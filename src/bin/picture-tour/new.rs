@@ -1,7 +1,6 @@
 //! `new`: a tour file to start from.
 
 use std::fs::File;
-use std::io::ErrorKind;
 use std::io::Write;
 use std::path::Path;
 use std::path::PathBuf;
@@ -14,6 +13,7 @@ use glam::UVec2;
 
 use crate::args::NewArguments;
 use crate::auto;
+use crate::beside;
 use crate::failure::Failure;
 
 /// Writes a tour file for a picture.
@@ -27,16 +27,12 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<ExitCode, Failure> {
 
     let out = arguments.out.clone().unwrap_or_else(|| picture.with_extension("tour.ron"));
     let relative = relative_to_folder_of(picture, &out).map_err(cannot)?;
+    beside::refuse_existing(&out, arguments.force)?;
     let size = decoded.picture.size();
     if arguments.auto {
-        auto::write(&decoded, &relative, &out, arguments.force)?;
-        return tell(
-            &decoded.notes,
-            &out,
-            &relative,
-            size,
-            "fly through it, and mend what is not to be trusted",
-        );
+        auto::write(&decoded, &relative, &out)?;
+        let next = "fly through it, and mend what is not to be trusted";
+        return tell(&decoded.notes, &out, &relative, size, next);
     }
     let text = Tour::template(relative.as_str(), size);
     if Tour::read(&text).is_err() {
@@ -74,7 +70,7 @@ fn tell(
 fn relative_to_folder_of(picture: &Path, out: &Path) -> Result<RelativePath, String> {
     let shown = picture.display();
     let folder = |path: &Path| -> Result<PathBuf, String> {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = beside::folder(path);
         folder
             .canonicalize()
             .map_err(|error| format!("the folder {} cannot be used ({error})", folder.display()))
@@ -96,16 +92,12 @@ fn relative_to_folder_of(picture: &Path, out: &Path) -> Result<RelativePath, Str
 }
 
 fn write(out: &Path, text: &str, force: bool) -> Result<(), Failure> {
-    let mut options = File::options();
-    let options = if force { options.create(true).truncate(true) } else { options.create_new(true) };
-    options.write(true).open(out).and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| {
-        Failure::CannotRun(if error.kind() == ErrorKind::AlreadyExists {
-            format!(
-                "{} is already there; name another file with --out, or replace it with --force",
-                out.display()
-            )
-        } else {
-            format!("{} cannot be written ({error}); name another file with --out", out.display())
-        })
+    // Asked for already, unless somebody else writes at this very moment.
+    let file = File::options().write(true).create(true).truncate(true).create_new(!force).open(out);
+    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|error| {
+        Failure::CannotRun(format!(
+            "{} cannot be written ({error}); name another file with --out",
+            out.display()
+        ))
     })
 }

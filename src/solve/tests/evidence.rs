@@ -1,11 +1,12 @@
 //! What each kind of evidence gives, alone and against others.
 
-use glam::DVec3;
+use glam::{DVec3, UVec2};
 
 use super::Kind;
 use super::Picture;
 use super::Random;
 use super::SIZE;
+use crate::picture::Lens;
 use crate::picture::PicturePoint;
 use crate::solve::AnnotatedPlane;
 use crate::solve::Annotations;
@@ -59,15 +60,24 @@ fn a_horizon_alone_is_enough_and_nothing_is_not() {
 }
 
 #[test]
+fn a_lens_tells_the_focal_length_of_whole_frames_only() {
+    let lens = |whole_frame| Some(Lens { focal_35mm: 36.0, whole_frame });
+    let size = UVec2::new(3000, 2000);
+    let FocalLength::Prior { px, .. } = FocalLength::of_lens(lens(true), size) else {
+        panic!("nothing is known of a whole frame");
+    };
+    assert!((px - 3000.0).abs() < 1e-9, "{px} px");
+    assert_eq!(FocalLength::of_lens(lens(false), size), FocalLength::Unknown);
+    assert_eq!(FocalLength::of_lens(None, size), FocalLength::Unknown);
+}
+
+#[test]
 fn a_known_length_sets_the_scale() {
     let picture = Picture { kind: Kind::Standing, ..Picture::new(-5.0, 1.0) };
     let mut annotations = picture.annotations(8);
     let pair = annotations.pairs[2].clone();
     let [left, right] = annotations.planes[2].contact;
-    let ends = [left, right].map(|foot| {
-        let ray = picture.truth.camera(SIZE).ray(foot);
-        ray.at(-ray.origin.y / ray.direction.y)
-    });
+    let ends = [left, right].map(|foot| picture.truth.camera(SIZE).on_level(foot, 0.0).unwrap());
     let meters = ends[0].distance(ends[1]);
     annotations.scale = Scale::Length { on: 2, from: left, to: right, meters };
     let solution = solved(&annotations);

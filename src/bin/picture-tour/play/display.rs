@@ -1,9 +1,19 @@
-//! Whether there is a display to open a window on.
+//! Whether there is a display to open a window on, and a graphics card to draw with.
 
-/// Whether a window can be opened; where X is spoken, whether its server answers.
+use bevy_picture_tour::headless::adapter_exists;
+
+/// What keeps a window from being opened, in words; `None` where nothing does.
 ///
-/// The window library panics when there is none, so it is asked for beforehand.
-pub(crate) fn exists() -> bool {
+/// The window library panics then, so it is asked for beforehand.
+pub(crate) fn missing() -> Option<&'static str> {
+    if !exists() {
+        return Some("there is no display");
+    }
+    (!adapter_exists()).then_some("there is no graphics adapter")
+}
+
+/// Whether there is a display; where X is spoken, whether its server answers.
+fn exists() -> bool {
     let is_x = cfg!(all(unix, not(any(target_os = "macos", target_os = "android", target_os = "ios"))));
     !is_x || std::env::var("DISPLAY").is_ok_and(|display| answers(&display))
 }

@@ -14,7 +14,6 @@ use bevy::camera_controller::free_camera::FreeCameraPlugin;
 use bevy::prelude::*;
 use bevy::window::WindowPlugin;
 use bevy_egui::{EguiPlugin, EguiPrimaryContextPass};
-use bevy_picture_tour::headless::adapter_exists;
 use bevy_picture_tour::plugin::{PictureTourPlugin, PictureTourSystems, TourAsset, TourCamera};
 
 use crate::args::RenderArguments;
@@ -39,12 +38,7 @@ pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
             return Err(opened.unsolved(&error.to_string()));
         }
     }
-    let missing = match (display::exists(), adapter_exists()) {
-        (true, true) => None,
-        (false, _) => Some("there is no display"),
-        (true, false) => Some("there is no graphics adapter"),
-    };
-    if let Some(missing) = missing {
+    if let Some(missing) = display::missing() {
         return render_instead(tour, opened.asset.tour().path.is_some(), missing);
     }
     let name = opened.name.clone();

@@ -4,16 +4,11 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::picture::{Mask, decode_mask, decode_picture};
+use crate::picture::{Mask, decode_mask, decode_picture, folder_of};
 use crate::tour::edit::Masks;
 use crate::tour::{Motion, Region, RelativePath, Sea, TourFile};
 
 use super::DeskError;
-
-/// The folder of a file; the current one for a mere name.
-pub(super) fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
 
 /// A hidden file beside a tour: `.lake.tour.ron.recovery`.
 pub(super) fn hidden(tour: &Path, suffix: &str) -> PathBuf {

@@ -7,16 +7,13 @@ use std::sync::Arc;
 
 use glam::UVec2;
 
-use crate::picture::{DecodedPicture, Mask, decode_picture};
+use crate::picture::{DecodedPicture, Mask, decode_picture, folder_of};
 use crate::tour::edit::part::Part;
 use crate::tour::edit::{Draft, Edit, EditError, History, Masks, PackedMask, Restored};
-use crate::tour::{Problem, Problems, RelativePath, TourFile, read};
+use crate::tour::{Problem, Problems, RelativePath, TOUR_ENDING, TourFile, read};
 
-use super::files::{ending, folder_of, free_name, mask_names, read_masks};
+use super::files::{ending, free_name, mask_names, read_masks};
 use super::{Desk, DeskError, Files, Recovered, Recovery, Version, recovery, versions};
-
-/// The ending of a tour's file.
-pub(super) const TOUR_ENDING: &str = ".tour.ron";
 
 /// How much the proportions of a picture may differ from those that were marked: 1 px in 1000, as the document's checks.
 const ASPECT_TOLERANCE: f64 = 1e-3;

@@ -10,12 +10,12 @@ use std::sync::Arc;
 
 use ron::ser::PrettyConfig;
 
-use crate::picture::{PngPixels, encode_png};
+use crate::picture::{PngPixels, encode_png, folder_of};
 use crate::tour::edit::Masks;
-use crate::tour::{RelativePath, TourFile, VERSION, read, write_whole};
+use crate::tour::{RelativePath, TOUR_ENDING, TourFile, VERSION, read, write_whole};
 
-use super::files::{ending, folder_of, free_name, mask_names, recordings, rename_masks};
-use super::open::{TOUR_ENDING, tour_name};
+use super::files::{ending, free_name, mask_names, recordings, rename_masks};
+use super::open::tour_name;
 use super::{Desk, DeskError, recovery, versions};
 
 /// What to do with a file that another window or program has written.

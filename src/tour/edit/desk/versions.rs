@@ -8,10 +8,11 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use crate::picture::folder_of;
 use crate::tour::{RelativePath, read};
 
 use super::DeskError;
-use super::files::{folder_of, hidden, mask_names};
+use super::files::{hidden, mask_names};
 
 /// How many versions are kept.
 pub const MOST_VERSIONS: usize = 5;
