@@ -1,4 +1,4 @@
-//! Lines and polygons of the picture, as the checks need them.
+//! Lines and polygons of the picture.
 
 use glam::DVec2;
 
@@ -28,7 +28,7 @@ impl HorizonLine {
 }
 
 /// Whether a point is inside a polygon, by the even-odd rule.
-pub(super) fn contains(corners: &[PicturePoint], point: PicturePoint) -> bool {
+pub(crate) fn contains(corners: &[PicturePoint], point: PicturePoint) -> bool {
     let p = point.0;
     edges(corners)
         .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
@@ -44,13 +44,19 @@ pub(super) fn area(corners: &[PicturePoint]) -> f64 {
     edges(corners).map(|(a, b)| (a - origin).perp_dot(b - origin)).sum::<f64>().abs() / 2.0
 }
 
-/// The indices of two sides that cross, each named by its first corner.
-pub(super) fn crossing(corners: &[PicturePoint]) -> Option<(usize, usize)> {
+/// The indices of two sides that cross, each named by its first corner, the lower one first. Sides that share a corner do
+/// not.
+pub(crate) fn crossing(corners: &[PicturePoint]) -> Option<(usize, usize)> {
     let sides: Vec<_> = edges(corners).collect();
-    let n = sides.len();
-    let pairs = (0..n).flat_map(|i| (i + 2..n).map(move |j| (i, j)));
-    // The last side and the first share a corner.
-    pairs.filter(|&(i, j)| !(i == 0 && j == n - 1)).find(|&(i, j)| cross(sides[i], sides[j]))
+    // Sides in the order of their left ends: only those that overlap along x are compared.
+    let left = |i: usize| sides[i].0.x.min(sides[i].1.x);
+    let mut order: Vec<usize> = (0..sides.len()).collect();
+    order.sort_by(|a, b| left(*a).total_cmp(&left(*b)));
+    order.iter().enumerate().find_map(|(rank, &i)| {
+        let right = sides[i].0.x.max(sides[i].1.x);
+        let mut beside = order[rank + 1..].iter().take_while(|j| left(**j) <= right);
+        beside.find(|j| cross(sides[i], sides[**j])).map(|&j| (i.min(j), i.max(j)))
+    })
 }
 
 fn cross((a, b): (DVec2, DVec2), (c, d): (DVec2, DVec2)) -> bool {
@@ -79,6 +85,29 @@ mod tests {
         );
         let tie = polygon(&[(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)]);
         assert_eq!(crossing(&tie), Some((0, 2)));
+    }
+
+    #[test]
+    fn the_sweep_finds_a_crossing_where_comparing_all_sides_does() {
+        let mut state = 1_u64;
+        let mut number = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from((state >> 59) as u32)
+        };
+        let mut crossed = 0;
+        for _ in 0..500 {
+            let corners: Vec<_> = (0..6).map(|_| PicturePoint::new(number(), number())).collect();
+            let sides: Vec<_> = edges(&corners).collect();
+            let any = (0..6).any(|i| (i + 1..6).any(|j| cross(sides[i], sides[j])));
+            let found = crossing(&corners);
+            assert_eq!(found.is_some(), any, "{corners:?}");
+            assert!(
+                found.is_none_or(|(i, j)| i < j && cross(sides[i], sides[j])),
+                "{found:?} of {corners:?}"
+            );
+            crossed += usize::from(any);
+        }
+        assert!((100..450).contains(&crossed), "{crossed} of 500 cross, so the test shows little");
     }
 
     #[test]

@@ -5,7 +5,7 @@ mod check;
 pub mod edit;
 mod file;
 mod fit;
-mod geometry;
+pub(crate) mod geometry;
 mod journey;
 mod known_fields;
 mod locate;
