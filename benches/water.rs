@@ -47,7 +47,7 @@ fn source(is_water: bool, moves: bool) -> Arc<TourSource> {
             outline: Region::Polygon(corners.map(|(x, y)| point(x, y)).into()),
             contact: [point(left, foot), point(left + 70.0, foot)],
             turns_to_camera: false,
-            motion: if moves { sway() } else { Motion::Static },
+            motion: if moves { Motion::Sway(Sway::of_kind(SwayKind::Trunk)) } else { Motion::Static },
         });
     }
     if moves {
@@ -57,20 +57,6 @@ fn source(is_water: bool, moves: bool) -> Arc<TourSource> {
     let tour = Tour::check(tour).expect("the marks are sound");
     let picture = |_: &_| Ok(include_bytes!("../tests/data/a1/input.png").to_vec());
     Arc::new(TourSource::read(&tour, &picture).expect("the picture reads"))
-}
-
-/// A tree's motion.
-fn sway() -> Motion<String> {
-    Motion::Sway(Sway {
-        kind: SwayKind::Trunk,
-        root: None,
-        tip: None,
-        frequency_hz: None,
-        damping: None,
-        amplitude: None,
-        period_seconds: None,
-        seed: None,
-    })
 }
 
 fn frames(criterion: &mut Criterion) {

@@ -12,7 +12,7 @@ mod clouds;
 mod gusts;
 mod oscillator;
 mod plant;
-mod preset;
+pub(crate) mod preset;
 mod random;
 mod spectrum;
 mod sway;

@@ -26,7 +26,7 @@ pub(super) struct ModePreset {
 
 /// A kind of plant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Preset {
+pub(crate) struct Preset {
     /// Natural frequency of the bending, hertz.
     pub frequency_hz: f64,
     /// Its damping ratio.
@@ -34,7 +34,7 @@ pub(super) struct Preset {
     /// Root mean square of the tip's way as a fraction of the length, at 5 m/s.
     pub amplitude: f64,
     /// Bending, branches, leaves.
-    pub modes: [ModePreset; 3],
+    pub(super) modes: [ModePreset; 3],
 }
 
 /// A mode that a kind has not.
@@ -49,7 +49,7 @@ const NONE: ModePreset = ModePreset {
 };
 
 /// The preset of a kind.
-pub(super) fn preset(kind: SwayKind) -> Preset {
+pub(crate) fn preset(kind: SwayKind) -> Preset {
     match kind {
         SwayKind::Trunk => Preset {
             frequency_hz: 0.3,
