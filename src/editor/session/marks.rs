@@ -11,7 +11,7 @@ use crate::editor::{BrushStroke, Ghost, Step, SuggestWhat, Suggestion};
 use crate::picture::{DecodedPicture, Mask, Picture, PicturePoint};
 use crate::suggest::outline::{
     Brush, BrushMode, GrowBound, GrowOptions, LiveWire, MaskCanvas, ObjectHints, Side, Stroke, contact_line,
-    grab_cut, grow, simplified,
+    grab_cut, grow, simplified_line,
 };
 use crate::suggest::{Part, Remark};
 use crate::tour::edit::{Edit, MaskPatch, PackedMask, RegionAt};
@@ -185,7 +185,7 @@ impl Session {
             self.tracing.anchor = Some(from);
         }
         let way = wire.path_to(PicturePoint(to.0 * scale));
-        self.tracing.way = simplified(&way, TRACE_TOLERANCE)
+        self.tracing.way = simplified_line(&way, TRACE_TOLERANCE)
             .into_iter()
             .map(|point| PicturePoint(point.0 / scale))
             .collect();
