@@ -185,8 +185,13 @@ impl Out {
         self.requests.push(request);
     }
 
-    /// Asks for something that is no edit.
+    /// Asks for something that is no edit. To save ends a gesture; what is dragged on is another one then.
     pub(super) fn request(&mut self, request: Request) {
+        let saves =
+            matches!(request, Request::Save | Request::SaveAs | Request::SaveOver | Request::SaveAndClose);
+        if saves && std::mem::take(&mut self.in_gesture) {
+            self.requests.push(Request::EndGesture);
+        }
         self.requests.push(request);
     }
 
