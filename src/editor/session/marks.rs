@@ -25,7 +25,11 @@ const TRACE_TOLERANCE: f64 = 1.5;
 pub(super) struct Tracing {
     /// Prepared for a picture.
     wire: Option<LiveWire>,
+    /// Where the way begins, pixels of the document.
     anchor: Option<PicturePoint>,
+    /// The way as it was found: a point for each pixel, in pixels of the picture's file.
+    found: Vec<PicturePoint>,
+    /// The same thinned out, in pixels of the document.
     pub(super) way: Vec<PicturePoint>,
 }
 
@@ -181,11 +185,18 @@ impl Session {
         let scale = self.scale(&picture.picture);
         let wire = self.tracing.wire.get_or_insert_with(|| LiveWire::new(&picture.picture));
         if self.tracing.anchor != Some(from) {
+            // Where the shown way ends the next one begins: it was taken, and tells what the object's edge is like. From
+            // anywhere else something new is drawn.
+            if self.tracing.way.last() == Some(&from) {
+                wire.learn_from(&self.tracing.found);
+            } else {
+                wire.forget();
+            }
             wire.anchor(PicturePoint(from.0 * scale));
             self.tracing.anchor = Some(from);
         }
-        let way = wire.path_to(PicturePoint(to.0 * scale));
-        self.tracing.way = simplified_line(&way, TRACE_TOLERANCE)
+        self.tracing.found = wire.path_to(PicturePoint(to.0 * scale));
+        self.tracing.way = simplified_line(&self.tracing.found, TRACE_TOLERANCE)
             .into_iter()
             .map(|point| PicturePoint(point.0 / scale))
             .collect();
