@@ -256,6 +256,7 @@ fn a_click_finds_what_a_mask_of_another_size_covers() {
         assert_eq!(harness.state().studio.object, object, "at {at:?}");
     }
     harness.state_mut().studio.step = Step::Pairs;
+    harness.run_steps(2);
     press(&mut harness, "Mark pairs");
     click(&mut harness, (690.0, 370.0));
     click(&mut harness, (690.0, 480.0));
