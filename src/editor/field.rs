@@ -1,7 +1,7 @@
 //! Rows of a panel: a name at the left, a value that can be dragged or typed at the right.
 //!
-//! Every function shows a value and gives back the one that was wanted, if any. A typed number counts once it is
-//! complete; numbers out of range go to its nearest end.
+//! Every function shows a value and gives back the one that was wanted, if any: showing alone asks for nothing, whatever
+//! the value. A typed number counts once it is complete; one out of range goes to its nearest end.
 
 use std::fmt::Debug;
 use std::hash::Hash;
@@ -11,7 +11,7 @@ use crate::picture::PicturePoint;
 
 use super::egui::{
     Align, Checkbox, ComboBox, DragValue, Frame, InnerResponse, Label, Layout, Response, RichText, Slider,
-    Ui, vec2,
+    SliderClamping, Ui, emath, vec2,
 };
 use super::theme;
 
@@ -69,18 +69,28 @@ impl<'a> Number<'a> {
         ui.add(value)
     }
 
+    /// What is read where a value is shown.
+    fn shown(&self, value: f64) -> f64 {
+        emath::round_to_decimals(value, self.decimals)
+    }
+
+    /// Whether another value is wanted: to click into a number and out again takes what is read there, and wants nothing.
+    fn is_other(&self, wanted: f64, value: f64) -> bool {
+        wanted != value && wanted != self.shown(value)
+    }
+
     /// A number to drag or type.
     pub(super) fn show(&self, ui: &mut Ui, value: f64) -> Option<f64> {
         let mut wanted = value;
         let changed = row(ui, self.name, self.hint, |ui| self.drag_value(&mut wanted, ui)).changed();
-        (changed && wanted != value).then_some(wanted)
+        (changed && self.is_other(wanted, value)).then_some(wanted)
     }
 
     /// The same with a slider.
     pub(super) fn slide(&self, ui: &mut Ui, value: f64) -> Option<f64> {
         let mut wanted = value;
         let changed = row(ui, self.name, self.hint, |ui| self.slider(&mut wanted, ui)).changed();
-        (changed && wanted != value).then_some(wanted)
+        (changed && self.is_other(wanted, value)).then_some(wanted)
     }
 
     fn slider(&self, value: &mut f64, ui: &mut Ui) -> Response {
@@ -88,6 +98,8 @@ impl<'a> Number<'a> {
         ui.spacing_mut().slider_width = room.max(40.0);
         ui.spacing_mut().interact_size.x = VALUE;
         let slider = Slider::new(value, self.range.clone())
+            // By default egui brings the value into the range, and rounds it, as soon as it is shown.
+            .clamping(SliderClamping::Edits)
             .logarithmic(self.logarithmic)
             .smallest_positive(self.range.end() / 1e3)
             .max_decimals(self.decimals)
@@ -96,17 +108,21 @@ impl<'a> Number<'a> {
         ui.add(slider)
     }
 
-    /// A number that may be left out; then `usual` is used, and shown dim. Gives the wanted one, perhaps none.
+    /// A number that may be left out; then `usual` is used, and shown dim. Gives the wanted one, perhaps none: an own
+    /// number begins as the one that is shown.
     pub(super) fn optional(&self, ui: &mut Ui, value: Option<f64>, usual: f64) -> Option<Option<f64>> {
         let mut is_own = value.is_some();
-        let mut wanted = value.unwrap_or(usual);
+        let before = value.unwrap_or(usual);
+        let mut wanted = before;
         let mut toggled = false;
         let row = row(ui, self.name, self.hint, |ui| {
             toggled = ui.add(Checkbox::without_text(&mut is_own)).changed();
             ui.add_enabled_ui(is_own, |ui| self.slider(&mut wanted, ui)).inner
         });
-        let changed = toggled || is_own && row.changed();
-        (changed && Some(wanted).filter(|_| is_own) != value).then(|| is_own.then_some(wanted))
+        if toggled {
+            return Some(is_own.then(|| self.shown(usual).clamp(*self.range.start(), *self.range.end())));
+        }
+        (is_own && row.changed() && self.is_other(wanted, before)).then_some(Some(wanted))
     }
 }
 
@@ -139,8 +155,14 @@ pub(super) fn point(ui: &mut Ui, name: &str, value: PicturePoint) -> Option<Pict
         let room = (ui.available_width() - ui.spacing().item_spacing.x) / 2.0;
         ui.spacing_mut().interact_size.x = room.min(80.0);
         for (number, prefix) in [(&mut wanted.0.x, "x "), (&mut wanted.0.y, "y ")] {
+            let before = *number;
             let value = DragValue::new(number).speed(0.5).max_decimals(1).prefix(prefix).range(-1e6..=1e6);
-            changed |= ui.add(value.update_while_editing(false)).labelled_by(label.id).changed();
+            let value = value.clamp_existing_to_range(false).update_while_editing(false);
+            changed |= ui.add(value).labelled_by(label.id).changed();
+            // As for a number: what is read there is not wanted anew.
+            if *number == emath::round_to_decimals(before, 1) {
+                *number = before;
+            }
         }
     });
     (changed && wanted != value).then_some(wanted)

@@ -156,7 +156,7 @@ pub struct Out {
 impl Out {
     /// Begins a frame: `held` while a button or arrow key is down, the rest as the frame before left it.
     pub(super) fn begin(held: bool, in_gesture: bool, canceled: bool) -> Self {
-        Self { held, in_gesture, canceled: canceled && held, ..Self::default() }
+        Self { held, in_gesture, canceled, ..Self::default() }
     }
 
     /// Ends a frame; whether a gesture goes on, and whether it was canceled while something is still held.
@@ -165,7 +165,8 @@ impl Out {
             self.in_gesture = false;
             self.requests.push(Request::EndGesture);
         }
-        (self.in_gesture, self.canceled)
+        // The frame in which the button is let go still belongs to what was canceled.
+        (self.in_gesture, self.canceled && self.held)
     }
 
     /// Asks for an edit; one made while something is held is part of a gesture.
@@ -185,8 +186,13 @@ impl Out {
         self.requests.push(request);
     }
 
-    /// Asks for something that is no edit.
+    /// Asks for something that is no edit. To save ends a gesture; what is dragged on is another one then.
     pub(super) fn request(&mut self, request: Request) {
+        let saves =
+            matches!(request, Request::Save | Request::SaveAs | Request::SaveOver | Request::SaveAndClose);
+        if saves && std::mem::take(&mut self.in_gesture) {
+            self.requests.push(Request::EndGesture);
+        }
         self.requests.push(request);
     }
 
@@ -242,6 +248,8 @@ mod tests {
         let (in_gesture, canceled) = out.end();
         assert_eq!((in_gesture, canceled), (false, true));
         assert_eq!(out.requests, [Request::CancelGesture]);
-        assert_eq!(Out::begin(false, in_gesture, canceled).end(), (false, false));
+        let mut out = Out::begin(false, in_gesture, canceled);
+        out.edit(Edit::LoopPath(true));
+        assert_eq!((out.end(), out.requests.len()), ((false, false), 0));
     }
 }

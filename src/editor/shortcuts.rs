@@ -17,6 +17,11 @@ pub(super) fn act(ui: &Ui, studio: &mut Studio, has_draft: bool, out: &mut Out) 
         }
     }
     requests.retain(|request| has_draft || *request == Request::OpenDialog);
+    // What is dragged is taken back first, and is what there is to undo.
+    let steps_back = |request: &Request| matches!(request, Request::Undo | Request::Redo);
+    if requests.iter().any(steps_back) && out.cancel() {
+        requests.retain(|request| *request != Request::Undo);
+    }
     if is_typing {
         if !requests.is_empty() {
             // What is typed so far counts, so that it is saved.

@@ -18,7 +18,7 @@ pub(super) const ACCENT: Color32 = Color32::from_rgb(0x5f, 0xa8, 0xd8);
 pub(super) const GOOD: Color32 = Color32::from_rgb(0x74, 0xc2, 0x8e);
 /// Weak, rough.
 pub(super) const ROUGH: Color32 = Color32::from_rgb(0xe2, 0xb4, 0x5e);
-/// Assumed, missing.
+/// Assumed, missing, wrong: the color of errors too.
 pub(super) const MISSING: Color32 = Color32::from_rgb(0xdd, 0x7b, 0x6c);
 
 pub(super) const HORIZON: Color32 = Color32::from_rgb(0xf2, 0xd3, 0x6b);

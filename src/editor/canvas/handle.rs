@@ -1,7 +1,10 @@
 //! What can be grasped in the picture: each has a place, a name, an edit that moves it and perhaps one that removes it.
 
-use crate::picture::PicturePoint;
+use glam::DVec2;
+
+use crate::picture::{Mask, PicturePoint};
 use crate::tour::edit::{Edit, LineAt, ListEdit, PlaceAt, PointAt, RegionAt};
+use crate::tour::geometry::contains;
 use crate::tour::{Motion, Region};
 
 use super::super::text::{Text, with};
@@ -202,29 +205,39 @@ pub(crate) fn handles(studio: &Studio, work: &Work<'_>) -> Vec<(Handle, PictureP
 
 /// The object in whose outline a point lies, the smallest of several.
 pub(crate) fn object_at(point: PicturePoint, work: &Work<'_>) -> Option<usize> {
-    let area = |corners: &[PicturePoint]| {
-        let sides = corners.iter().zip(corners.iter().cycle().skip(1));
-        sides.map(|(a, b)| (a.0 - point.0).perp_dot(b.0 - point.0)).sum::<f64>().abs()
-    };
-    let outlines = work.tour.objects.iter().enumerate().filter_map(|(index, object)| match &object.outline {
-        Region::Polygon(corners) => Some((index, corners)),
-        Region::Mask(name) => {
-            let mask = work.draft.masks.get(name)?;
-            (mask.sample(point) > 0.5).then_some((index, const { &Vec::new() }))
-        }
-    });
-    outlines
-        .filter(|(_, corners)| corners.is_empty() || contains(corners, point))
-        .min_by(|a, b| area(a.1).total_cmp(&area(b.1)))
+    let objects = work.tour.objects.iter().enumerate();
+    objects
+        .filter(|(_, object)| covers(&object.outline, point, work))
+        .min_by(|a, b| area(&a.1.outline, work).total_cmp(&area(&b.1.outline, work)))
         .map(|(index, _)| index)
 }
 
-/// Whether a point is inside a polygon, by the even-odd rule. (A twin of `tour::geometry::contains`.)
-pub(crate) fn contains(corners: &[PicturePoint], PicturePoint(p): PicturePoint) -> bool {
-    let sides = corners.iter().map(|a| a.0).zip(corners.iter().map(|b| b.0).cycle().skip(1));
-    sides
-        .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x))
-        .count()
-        % 2
-        == 1
+/// Whether a region covers a point of the document; a mask does where it covers more than half.
+pub(super) fn covers(region: &Region<String>, point: PicturePoint, work: &Work<'_>) -> bool {
+    match region {
+        Region::Polygon(corners) => contains(corners, point),
+        Region::Mask(name) => work.draft.masks.get(name).is_some_and(|mask| {
+            let scaled = point.0 * mask_pixels(mask, work);
+            mask.sample(PicturePoint(scaled)) > 0.5
+        }),
+    }
+}
+
+/// How large a region is, square pixels of the document; 0 for a mask that is not there.
+fn area(region: &Region<String>, work: &Work<'_>) -> f64 {
+    match region {
+        Region::Polygon(corners) => {
+            let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+            sides.map(|(a, b)| (a.0 - corners[0].0).perp_dot(b.0 - corners[0].0)).sum::<f64>().abs() / 2.0
+        }
+        Region::Mask(name) => work.draft.masks.get(name).map_or(0.0, |mask| {
+            let covered: u64 = mask.values().iter().map(|value| u64::from(*value)).sum();
+            covered as f64 / 255.0 / mask_pixels(mask, work).element_product()
+        }),
+    }
+}
+
+/// Pixels of a mask, which has the size of the picture's file, per pixel of the document.
+fn mask_pixels(mask: &Mask, work: &Work<'_>) -> DVec2 {
+    mask.size().as_dvec2() / work.size.as_dvec2()
 }

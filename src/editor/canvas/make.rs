@@ -8,7 +8,7 @@ use crate::tour::{Motion, Object, ReflectionPair, Region, Support};
 
 use super::super::text::with;
 use super::super::work::Work;
-use super::handle::{contains, object_at};
+use super::handle::{covers, object_at};
 
 /// Two points, the left one first.
 pub(super) fn from_left([a, b]: [PicturePoint; 2]) -> [PicturePoint; 2] {
@@ -20,10 +20,7 @@ pub(super) fn new_pair([a, b]: [PicturePoint; 2], work: &Work<'_>) -> Edit {
     let (point, reflection) = if a.y() <= b.y() { (a, b) } else { (b, a) };
     let object = object_at(point, work).map(|object| work.tour.objects[object].name.clone());
     let band = || {
-        let on = |region: &Region<String>| match region {
-            Region::Polygon(corners) => contains(corners, point),
-            Region::Mask(name) => work.draft.masks.get(name).is_some_and(|mask| mask.sample(point) > 0.5),
-        };
+        let on = |region: &Region<String>| covers(region, point, work);
         let bands = &work.tour.background.bands;
         bands.iter().find(|band| band.region.as_ref().is_some_and(on)).map(|band| band.name.clone())
     };
@@ -36,11 +33,7 @@ pub(super) fn new_pair([a, b]: [PicturePoint; 2], work: &Work<'_>) -> Edit {
 pub(super) fn new_object(outline: &[PicturePoint], work: &Work<'_>) -> Edit {
     let contact = lower_edge(outline);
     let middle = PicturePoint((contact[0].0 + contact[1].0) / 2.0);
-    let on_ground = match work.tour.ground.as_ref().map(|ground| &ground.region) {
-        Some(Region::Polygon(corners)) => contains(corners, middle),
-        Some(Region::Mask(name)) => work.draft.masks.get(name).is_some_and(|mask| mask.sample(middle) > 0.5),
-        None => false,
-    };
+    let on_ground = work.tour.ground.as_ref().is_some_and(|ground| covers(&ground.region, middle, work));
     let support = if on_ground || work.tour.water.is_none() { Support::Ground } else { Support::Water };
     let object = Object {
         name: free_name(work.text.mark.new_object, work),

@@ -54,10 +54,10 @@ impl Canvas {
         *self = Self { eye, screen, ..Self::default() };
     }
 
-    /// Whether something is being drawn or held.
+    /// Whether something is being drawn or held, or a tool is in the hand.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.tool != Tool::Select || !self.sketch.is_empty()
+        self.tool != Tool::Select || !self.sketch.is_empty() || self.drag.is_some()
     }
 
     /// Shows all of the picture.

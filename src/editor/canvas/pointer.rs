@@ -119,9 +119,15 @@ pub(super) fn begin(
     handles: &[(Handle, PicturePoint)],
 ) -> Drag {
     if studio.canvas.tool != Tool::Select {
-        let takes = studio.canvas.tool.takes();
-        if !matches!(takes, Some(Takes::Many { .. })) {
-            studio.canvas.sketch = vec![frame.to_picture(at)];
+        let sketch = &mut studio.canvas.sketch;
+        // A click with a trembling hand, or a long one, comes as a drag: it adds to what is drawn.
+        let goes_on = match studio.canvas.tool.takes() {
+            Some(Takes::Many { .. }) => true,
+            Some(Takes::Two) => sketch.len() == 1,
+            Some(Takes::One | Takes::Stroke | Takes::Pieces) | None => false,
+        };
+        if !goes_on {
+            *sketch = vec![frame.to_picture(at)];
         }
         return Drag::Draw;
     }
@@ -205,8 +211,12 @@ pub(super) fn draw_click(
             }
         }
         Takes::Two => {
-            studio.canvas.sketch.push(point);
-            if studio.canvas.sketch.len() >= 2 {
+            let sketch = &mut studio.canvas.sketch;
+            // Where the first point is, it was only clicked once more, or long.
+            if !sketch.last().is_some_and(near) {
+                sketch.push(point);
+            }
+            if sketch.len() >= 2 {
                 finish(studio, work, out);
             }
         }

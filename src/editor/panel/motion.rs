@@ -5,6 +5,8 @@ use glam::DVec2;
 use crate::picture::PicturePoint;
 use crate::tour::edit::{Edit, PointAt};
 use crate::tour::{Course, Drift, Floating, Motion, Sky, Sway, SwayKind, Waypoint};
+use crate::water::body::Hull;
+use crate::wind::preset::preset;
 
 use super::super::canvas::Tool;
 use super::super::egui::Ui;
@@ -89,50 +91,26 @@ fn kind_ui(
     // A recording is made elsewhere; it can be kept or left.
     let kinds = if kind == Kind::Recorded { &kinds[..] } else { &kinds[..7] };
     let Some(wanted) = field::choice(ui, "kind", t.motion.kind, kind, kinds) else { return };
-    let draft = match motion {
-        Motion::Floating(floating) => floating.draft,
-        Motion::Course(course) => course.draft,
-        _ => 0.3,
+    let (draft, length) = match motion {
+        Motion::Floating(floating) => (floating.draft, floating.length),
+        Motion::Course(course) => (course.draft, course.length),
+        _ => (0.3, None),
     };
     let motion = match wanted {
         Kind::Still => Motion::Static,
         Kind::Sway(kind) => Motion::Sway(match motion {
             Motion::Sway(sway) => Sway { kind, ..sway.clone() },
-            _ => Sway {
-                kind,
-                root: None,
-                tip: None,
-                frequency_hz: None,
-                damping: None,
-                amplitude: None,
-                period_seconds: None,
-                seed: None,
-            },
+            _ => Sway::of_kind(kind),
         }),
-        Kind::Anchored => Motion::Floating(anchored(draft)),
+        Kind::Anchored => Motion::Floating(Floating { length, ..Floating::of_draft(draft) }),
         Kind::UnderWay => match first_course(object, work) {
-            Some(waypoints) => {
-                Motion::Course(Course { waypoints, speed: 1.0, draft, length: None, closed: false })
-            }
+            Some(waypoints) => Motion::Course(Course { waypoints, speed: 1.0, draft, length, closed: false }),
             // Nobody knows yet where on the water it is: the course is drawn first.
             None => return studio.take(Tool::Course(object)),
         },
         Kind::Recorded => return,
     };
     out.edit(Edit::Motion { object, motion });
-}
-
-fn anchored(draft: f64) -> Floating {
-    Floating {
-        draft,
-        length: None,
-        beam: None,
-        mass: None,
-        heave_damping: None,
-        roll_damping: None,
-        heave_period_seconds: None,
-        roll_period_seconds: None,
-    }
 }
 
 /// A short way along an object's contact line, to be drawn on.
@@ -146,13 +124,7 @@ fn first_course(object: usize, work: &Work<'_>) -> Option<Vec<Waypoint>> {
 
 fn sway_ui(ui: &mut Ui, object: usize, sway: &Sway, work: &Work<'_>, out: &mut Out) {
     let t = work.text;
-    // Frequency, damping and amplitude of each kind, as `wind::preset` has them.
-    let [frequency, damping, amplitude] = match sway.kind {
-        SwayKind::Trunk => [0.3, 0.1, 0.004],
-        SwayKind::Branch => [0.8, 0.08, 0.01],
-        SwayKind::Reed => [1.2, 0.12, 0.03],
-        SwayKind::Grass => [2.0, 0.15, 0.03],
-    };
+    let usual = preset(sway.kind);
     let mut wanted = sway.clone();
     let set = |to: &mut Option<f64>, new: Option<Option<f64>>| {
         if let Some(new) = new {
@@ -161,12 +133,12 @@ fn sway_ui(ui: &mut Ui, object: usize, sway: &Sway, work: &Work<'_>, out: &mut O
     };
     let row = |name, range| Number::new(name, range).hint(t.motion.own_number_hint);
     let strength = row(t.motion.amplitude, 0.0..=0.2).decimals(3);
-    set(&mut wanted.amplitude, strength.optional(ui, sway.amplitude, amplitude));
+    set(&mut wanted.amplitude, strength.optional(ui, sway.amplitude, usual.amplitude));
     let quickness = row(t.motion.frequency, 0.02..=10.0).logarithmic().unit(" Hz");
-    set(&mut wanted.frequency_hz, quickness.optional(ui, sway.frequency_hz, frequency));
+    set(&mut wanted.frequency_hz, quickness.optional(ui, sway.frequency_hz, usual.frequency_hz));
     set(
         &mut wanted.damping,
-        row(t.motion.damping, 0.01..=1.0).logarithmic().optional(ui, sway.damping, damping),
+        row(t.motion.damping, 0.01..=1.0).logarithmic().optional(ui, sway.damping, usual.damping),
     );
     let period = row(t.motion.period, 4.0..=120.0).unit(" s").decimals(0);
     set(&mut wanted.period_seconds, period.optional(ui, sway.period_seconds, work.tour.wind.period_seconds));
@@ -201,12 +173,17 @@ fn floating_ui(ui: &mut Ui, object: usize, floating: &Floating, work: &Work<'_>,
     if let Some(draft) = row(t.motion.draft, 0.01..=20.0).unit(" m").slide(ui, floating.draft) {
         wanted.draft = draft;
     }
+    let hull = Hull::new(floating, contact_length(object, work));
     let rows: [(&mut Option<f64>, Number<'_>, f64); 5] = [
-        (&mut wanted.length, row(t.motion.length, 0.1..=400.0).unit(" m"), 5.0),
-        (&mut wanted.heave_damping, row(t.motion.heave_damping, 0.01..=2.0), 0.2),
-        (&mut wanted.roll_damping, row(t.motion.roll_damping, 0.01..=2.0), 0.1),
-        (&mut wanted.heave_period_seconds, row(t.motion.heave_period, 0.2..=60.0).unit(" s"), 1.5),
-        (&mut wanted.roll_period_seconds, row(t.motion.roll_period, 0.2..=60.0).unit(" s"), 2.5),
+        (&mut wanted.length, row(t.motion.length, 0.1..=400.0).unit(" m"), hull.length),
+        (&mut wanted.heave_damping, row(t.motion.heave_damping, 0.01..=2.0), hull.heave_damping),
+        (&mut wanted.roll_damping, row(t.motion.roll_damping, 0.01..=2.0), hull.roll_damping),
+        (
+            &mut wanted.heave_period_seconds,
+            row(t.motion.heave_period, 0.2..=60.0).unit(" s"),
+            hull.heave_period,
+        ),
+        (&mut wanted.roll_period_seconds, row(t.motion.roll_period, 0.2..=60.0).unit(" s"), hull.roll_period),
     ];
     for (value, number, usual) in rows {
         if let Some(new) = number.optional(ui, *value, usual) {
@@ -215,6 +192,15 @@ fn floating_ui(ui: &mut Ui, object: usize, floating: &Floating, work: &Work<'_>,
     }
     if wanted != *floating {
         out.edit(Edit::Motion { object, motion: Motion::Floating(wanted) });
+    }
+}
+
+/// Meters from foot to foot on the water; not a number where that cannot be told (the hull has a usual one then).
+fn contact_length(object: usize, work: &Work<'_>) -> f64 {
+    let feet = work.tour.objects.get(object).map(|object| object.contact.map(|foot| work.water_at(foot)));
+    match feet {
+        Some([Some(Waypoint(left)), Some(Waypoint(right))]) => left.distance(right),
+        _ => f64::NAN,
     }
 }
 
@@ -273,7 +259,7 @@ fn clouds_ui(ui: &mut Ui, work: &Work<'_>, out: &mut Out) {
         if let Some(speed) = speed.slide(ui, drift.speed) {
             out.edit(Edit::Drift(Some(Drift { speed, ..*drift })));
         }
-        let direction = Number::new(t.motion.drift_direction, -180.0..=180.0).unit("°").decimals(0);
+        let direction = Number::new(t.motion.drift_direction, -180.0..=360.0).unit("°").decimals(0);
         if let Some(direction_deg) = direction.slide(ui, drift.direction_deg) {
             out.edit(Edit::Drift(Some(Drift { direction_deg, ..*drift })));
         }

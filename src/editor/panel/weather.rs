@@ -1,7 +1,7 @@
 //! Step 6, second part: the wind over everything, and the waves.
 
 use crate::tour::edit::Edit;
-use crate::tour::{Jonswap, Octaves, Sea, Waves, Wind};
+use crate::tour::{Jonswap, Octaves, Sea, Waves};
 
 use super::super::Out;
 use super::super::egui::Ui;
@@ -40,7 +40,7 @@ fn wind_ui(ui: &mut Ui, work: &Work<'_>, out: &mut Out) {
         wanted.seed = seed.round() as u64;
     }
     if wanted != wind {
-        out.edit(Edit::Wind(Wind { ..wanted }));
+        out.edit(Edit::Wind(wanted));
     }
 }
 
@@ -108,7 +108,11 @@ fn octaves_ui(ui: &mut Ui, octaves: Octaves, work: &Work<'_>) -> Octaves {
     let rows: [(&mut Option<f64>, Number<'_>, f64); 3] = [
         (&mut wanted.max_height, own(t.motion.wave_height, 0.0..=10.0).unit(" m"), 0.1),
         (&mut wanted.wavelength, own(t.motion.wavelength, 0.1..=300.0).logarithmic().unit(" m"), 4.0),
-        (&mut wanted.direction_deg, direction(t.motion.direction, t.motion.direction_hint), 0.0),
+        (
+            &mut wanted.direction_deg,
+            direction(t.motion.direction, t.motion.direction_hint),
+            work.tour.wind.direction_deg,
+        ),
     ];
     for (value, number, usual) in rows {
         if let Some(new) = number.optional(ui, *value, usual) {
@@ -135,7 +139,11 @@ fn jonswap_ui(ui: &mut Ui, jonswap: Jonswap, work: &Work<'_>) -> Jonswap {
     let rows: [(&mut Option<f64>, Number<'_>, f64); 3] = [
         (&mut wanted.max_height, own(t.motion.wave_height, 0.0..=10.0).unit(" m"), 0.1),
         (&mut wanted.peak_period_seconds, own(t.motion.peak_period, 0.3..=20.0).unit(" s"), 2.0),
-        (&mut wanted.direction_deg, direction(t.motion.direction, t.motion.direction_hint), 0.0),
+        (
+            &mut wanted.direction_deg,
+            direction(t.motion.direction, t.motion.direction_hint),
+            work.tour.wind.direction_deg,
+        ),
     ];
     for (value, number, usual) in rows {
         if let Some(new) = number.optional(ui, *value, usual) {

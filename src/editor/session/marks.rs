@@ -10,7 +10,7 @@ use crate::editor::BrushStroke;
 use crate::picture::{DecodedPicture, Mask, Picture, PicturePoint};
 use crate::suggest::outline::{
     Brush, BrushMode, GrowBound, GrowOptions, LiveWire, MaskCanvas, ObjectHints, Side, Stroke, contact_line,
-    grab_cut, grow, simplified,
+    grab_cut, grow, simplified_line,
 };
 use crate::tour::edit::{Edit, MaskPatch, PackedMask, RegionAt};
 use crate::tour::{Motion, Region};
@@ -34,7 +34,11 @@ pub(super) struct Tracing {
     wire: Option<LiveWire>,
     /// Whether it is being prepared.
     is_coming: bool,
+    /// Where the way begins, pixels of the document.
     anchor: Option<PicturePoint>,
+    /// The way as it was found: a point for each pixel, in pixels of the picture's file.
+    found: Vec<PicturePoint>,
+    /// The same thinned out, in pixels of the document.
     pub(super) way: Vec<PicturePoint>,
 }
 
@@ -228,11 +232,18 @@ impl Session {
         let scale = self.scale(&picture.picture);
         let Some(wire) = &mut self.tracing.wire else { return self.prepare_tracing(picture) };
         if self.tracing.anchor != Some(from) {
+            // Where the shown way ends the next one begins: it was taken, and tells what the object's edge is like. From
+            // anywhere else something new is drawn.
+            if self.tracing.way.last() == Some(&from) {
+                wire.learn_from(&self.tracing.found);
+            } else {
+                wire.forget();
+            }
             wire.anchor(PicturePoint(from.0 * scale));
             self.tracing.anchor = Some(from);
         }
-        let way = wire.path_to(PicturePoint(to.0 * scale));
-        self.tracing.way = simplified(&way, TRACE_TOLERANCE)
+        self.tracing.found = wire.path_to(PicturePoint(to.0 * scale));
+        self.tracing.way = simplified_line(&self.tracing.found, TRACE_TOLERANCE)
             .into_iter()
             .map(|point| PicturePoint(point.0 / scale))
             .collect();

@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::*;
 use crate::editor::egui::{Key, Modifiers};
+use crate::picture::Mask;
 use crate::tour::edit::{LineAt, ListEdit, PointAt, RegionAt};
 
 fn close(a: PicturePoint, b: (f64, f64), px: f64) {
@@ -55,6 +56,40 @@ fn escape_takes_a_drag_back() {
     let bench = harness.state();
     close(bench.tour().camera.horizon.unwrap()[1], (1000.0, 250.0), 1e-9);
     assert_eq!(bench.steps(), 0);
+}
+
+#[test]
+fn undo_takes_a_drag_back_and_save_divides_it() {
+    let mut harness = small(Bench::at(Step::Horizon));
+    let (from, to) = (seen(&harness, 1000.0, 250.0), seen(&harness, 800.0, 100.0));
+    let hold = |harness: &mut Harness<'_, Bench>, key| {
+        harness.hover_at(from);
+        harness.step();
+        harness.drag_at(from);
+        harness.step();
+        for part in [0.3, 0.5] {
+            harness.hover_at(from.lerp(to, part));
+            harness.step();
+        }
+        harness.key_press_modifiers(Modifiers::COMMAND, key);
+        harness.run_steps(2);
+        for part in [0.6, 0.8, 1.0] {
+            harness.hover_at(from.lerp(to, part));
+            harness.step();
+        }
+        harness.drop_at(to);
+        harness.run_steps(2);
+    };
+    hold(&mut harness, Key::Z);
+    let bench = harness.state();
+    close(bench.tour().camera.horizon.unwrap()[1], (1000.0, 250.0), 1e-9);
+    assert_eq!((bench.steps(), bench.log.last()), (0, Some(&Request::CancelGesture)), "{:?}", bench.log);
+
+    hold(&mut harness, Key::S);
+    let bench = harness.state();
+    close(bench.tour().camera.horizon.unwrap()[1], (800.0, 100.0), 0.5);
+    assert!(bench.log.contains(&Request::Save));
+    assert_eq!(bench.steps(), 2, "{:?}", bench.log);
 }
 
 #[test]
@@ -170,6 +205,66 @@ fn a_pair_is_dragged_from_point_to_reflection() {
     close(pair.point, (420.0, 150.0), 0.5);
     close(pair.reflection, (420.0, 380.0), 0.5);
     assert_eq!(bench.studio.canvas.tool, Tool::Pair, "the next pair can be marked at once");
+}
+
+#[test]
+fn a_pair_is_clicked_with_a_trembling_hand() {
+    let mut harness = small(Bench::at(Step::Pairs));
+    press(&mut harness, "Mark pairs");
+    // Longer than a click may take, and not quite in one place.
+    let long_click = |harness: &mut Harness<'_, Bench>, at: (f64, f64)| {
+        let at = seen(harness, at.0, at.1);
+        harness.hover_at(at);
+        harness.step();
+        harness.drag_at(at);
+        harness.run_steps(6);
+        harness.hover_at(at + Vec2::new(2.0, 1.0));
+        harness.step();
+        harness.drop_at(at + Vec2::new(2.0, 1.0));
+        harness.run_steps(8);
+    };
+    long_click(&mut harness, (420.0, 150.0));
+    assert_eq!((harness.state().studio.canvas.drawn(), harness.state().edits().len()), (1, 0));
+    long_click(&mut harness, (420.0, 380.0));
+    let bench = harness.state();
+    let [Edit::Pairs(ListEdit::Insert(2, pair))] = bench.edits()[..] else { panic!("{:?}", bench.edits()) };
+    close(pair.point, (420.0, 150.0), 8.0);
+    close(pair.reflection, (420.0, 380.0), 8.0);
+}
+
+#[test]
+fn a_click_finds_what_a_mask_of_another_size_covers() {
+    // The picture's file has half the document's pixels, so the boat's mask has.
+    let mut bench = Bench::at(Step::Objects);
+    let size = SIZE / 2;
+    let covered = |i: u32| (300..350).contains(&(i % size.x)) && (180..210).contains(&(i / size.x));
+    let values = (0..size.element_product()).map(|i| if covered(i) { 255 } else { 0 }).collect();
+    let mut tour = pond();
+    tour.objects[0].outline = Region::Mask("masks/boat.png".into());
+    let corners = [(640.0, 380.0), (660.0, 380.0), (660.0, 400.0), (640.0, 400.0)];
+    tour.objects.push(Object {
+        name: "oar".into(),
+        outline: Region::Polygon(corners.map(|(x, y)| PicturePoint::new(x, y)).to_vec()),
+        ..tour.objects[0].clone()
+    });
+    let mut draft = Draft::new(tour);
+    draft.masks.load("masks/boat.png", Mask::new(size, values).unwrap());
+    bench.draft = Some(draft);
+    let mut harness = small(bench);
+    for (at, object) in [((690.0, 370.0), Some(0)), ((650.0, 390.0), Some(1)), ((310.0, 190.0), Some(1))] {
+        click(&mut harness, at);
+        assert_eq!(harness.state().studio.object, object, "at {at:?}");
+    }
+    harness.state_mut().studio.step = Step::Pairs;
+    harness.run_steps(2);
+    press(&mut harness, "Mark pairs");
+    click(&mut harness, (690.0, 370.0));
+    click(&mut harness, (690.0, 480.0));
+    let bench = harness.state();
+    let Some(Edit::Pairs(ListEdit::Insert(_, pair))) = bench.edits().last() else {
+        panic!("{:?}", bench.edits())
+    };
+    assert_eq!(pair.on.as_deref(), Some("boat"));
 }
 
 #[test]

@@ -171,6 +171,7 @@ impl Bench {
             picture: Some(PictureView { texture, size }),
             masks: &[],
             tour: TourView { image: Some(texture), flown: self.flown, playing: None },
+            scene: None,
             solved: self.solution.as_ref().map(Ok),
             problems,
             suggestions: &self.suggestions,
@@ -202,7 +203,8 @@ impl Bench {
                     self.history.apply(edit, draft).unwrap();
                 }
                 Request::BeginGesture => self.history.begin_gesture(),
-                Request::EndGesture => self.history.end_gesture(),
+                // To save ends a gesture, as on a desk.
+                Request::EndGesture | Request::Save => self.history.end_gesture(),
                 Request::CancelGesture => self.history.cancel_gesture(draft).unwrap(),
                 Request::Undo => drop(self.history.undo(draft).unwrap()),
                 Request::Redo => drop(self.history.redo(draft).unwrap()),

@@ -1,10 +1,13 @@
 //! Controls found by their labels yield the right edits and requests.
 
+use egui_kittest::kittest::NodeT as _;
+
 use super::*;
 use crate::editor::egui::accesskit::Role;
 use crate::editor::egui::{Event, Key, Modifiers};
 use crate::tour::edit::{ListEdit, RegionAt};
-use crate::tour::{FocalLength, Scale, SwayKind};
+use crate::tour::{Floating, FocalLength, Jonswap, Octaves, Scale, Sea, Sway, SwayKind};
+use crate::water::body::Hull;
 
 /// Types a number into the field with this name.
 fn type_number(harness: &mut Harness<'_, Bench>, name: &str, number: &str) {
@@ -116,6 +119,81 @@ fn every_kind_of_motion_can_be_picked() {
         let bench = harness.state();
         assert!(is_right(&bench.tour().objects[0].motion), "{name}: {:?}", bench.tour().objects[0].motion);
         assert!(Tour::check(bench.tour().clone()).is_ok(), "{name} makes a tour that is not sound");
+    }
+}
+
+#[test]
+fn numbers_that_no_slider_reaches_are_shown_and_stay() {
+    let course = crate::tour::Course {
+        waypoints: vec![crate::tour::Waypoint(glam::DVec2::new(0.123, -9.876)); 2],
+        speed: 1.2345,
+        draft: 0.1251,
+        length: Some(3.333),
+        closed: true,
+    };
+    let sway = Sway { amplitude: Some(0.0045), damping: Some(0.123_4), ..Sway::of_kind(SwayKind::Reed) };
+    let floating = Floating { roll_damping: Some(0.005), ..Floating::of_draft(0.125) };
+    let octaves = Octaves { wavelength: Some(3.141_59), speed_factor: 7.0, ..Octaves::default() };
+    let jonswap = Jonswap { depth: 12.345, spreading: 4.44, ..Jonswap::default() };
+    for (motion, sea) in [
+        (Motion::Sway(sway), Sea::Octaves(octaves)),
+        (Motion::Floating(floating), Sea::Jonswap(jonswap)),
+        (Motion::Course(course), Sea::Calm),
+    ] {
+        let mut tour = pond();
+        tour.objects[0].motion = motion;
+        tour.wind.speed = 3.14;
+        tour.wind.direction_deg = -270.0;
+        tour.waves.sea = sea;
+        let drift = crate::tour::Drift { speed: 0.123, direction_deg: -190.0 };
+        tour.sky = Some(crate::tour::Sky { region: None, drift: Some(drift) });
+        let mut bench = Bench::at(Step::Motion);
+        bench.studio.object = Some(0);
+        bench.draft = Some(Draft::new(tour.clone()));
+        let mut harness = small(bench);
+        assert_eq!((harness.state().steps(), harness.state().tour()), (0, &tour));
+        // A number that is clicked into and left is not changed either.
+        harness.get_all_by_role(Role::SpinButton).next().unwrap().scroll_to_me();
+        harness.run_steps(30);
+        harness.get_all_by_role(Role::SpinButton).next().unwrap().click();
+        harness.run_steps(3);
+        assert!(harness.state().out.text_has_focus, "nothing is typed into");
+        harness.key_press(Key::Enter);
+        harness.run_steps(3);
+        assert_eq!((harness.state().steps(), harness.state().tour()), (0, &tour));
+    }
+}
+
+#[test]
+fn numbers_left_out_are_shown_as_they_are_used() {
+    let mut tour = pond();
+    let floating = Floating::of_draft(0.2);
+    tour.objects[0].motion = Motion::Floating(floating.clone());
+    tour.wind.direction_deg = 20.0;
+    tour.waves.sea = Sea::Jonswap(Jonswap::default());
+    let mut bench = Bench::at(Step::Motion);
+    bench.studio.object = Some(0);
+    bench.draft = Some(Draft::new(tour));
+    let length = bench.with_work(|work| {
+        let [left, right] = work.tour.objects[0].contact.map(|foot| work.water_at(foot).unwrap().0);
+        left.distance(right)
+    });
+    let hull = Hull::new(&floating, length);
+    let harness = small(bench);
+    let slider = |name: &str| {
+        let found = harness.get_all_by_role_and_label(Role::Slider, name).last().unwrap();
+        found.accesskit_node().numeric_value().unwrap()
+    };
+    for (name, used) in [
+        ("Length", length),
+        ("Heave damping", 0.15),
+        ("Roll damping", 0.08),
+        ("Heave period", hull.heave_period),
+        ("Roll period", hull.roll_period),
+        // That of the waves, below the wind's.
+        ("Blows to", 20.0),
+    ] {
+        assert!((slider(name) - used).abs() < 1e-9, "{name} is {} and not {used}", slider(name));
     }
 }
 

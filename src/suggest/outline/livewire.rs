@@ -79,7 +79,7 @@ impl LiveWire {
     /// not finite.
     #[must_use]
     pub fn path_to(&mut self, at: PicturePoint) -> Vec<PicturePoint> {
-        let path = self.pixels_to(at).map(|(path, _)| path).unwrap_or_default();
+        let path = self.pixels_to(at).unwrap_or_default();
         let last = path.len().saturating_sub(1);
         let level = &self.levels[0];
         let point = |(index, at): (usize, &UVec2)| {
@@ -88,13 +88,6 @@ impl LiveWire {
             PicturePoint(at.as_dvec2() + 0.5 + offset)
         };
         path.iter().enumerate().map(point).collect()
-    }
-
-    /// What the line from the anchor to `at` costs, 1–255 for each of its links. Within the anchor's window at full size
-    /// (some hundred pixels) the way back costs the same.
-    #[must_use]
-    pub fn cost_to(&mut self, at: PicturePoint) -> Option<u32> {
-        self.pixels_to(at).map(|(_, cost)| cost)
     }
 
     /// Learns from the last 64 points of an accepted line which contrasts the object's edge has; holds from the next
@@ -114,31 +107,14 @@ impl LiveWire {
         self.prices = Prices::plain();
     }
 
-    /// The center of the pixel within `radius` pixels (at most 64) that lies best on an edge: where a click may snap to.
-    #[must_use]
-    pub fn snapped(&self, at: PicturePoint, radius: f64) -> Option<PicturePoint> {
-        let middle = self.pixel(at)?;
-        let level = &self.levels[0];
-        let reach = if radius.is_finite() { radius.clamp(0.0, 64.0) } else { 0.0 };
-        let around = reach.ceil() as u32;
-        let high = (middle + around).min(level.size - 1);
-        let low = middle.saturating_sub(UVec2::splat(around));
-        let pixels = (low.y..=high.y).flat_map(|y| (low.x..=high.x).map(move |x| UVec2::new(x, y)));
-        let near = pixels.filter(|pixel| pixel.as_dvec2().distance(middle.as_dvec2()) <= reach);
-        // The strongest contrast, on a crest if there is one; of equal ones the nearest.
-        let off = |pixel: UVec2| pixel.as_ivec2().distance_squared(middle.as_ivec2());
-        let best = near.max_by_key(|pixel| (level.feature(*pixel)[0], -off(*pixel)))?;
-        Some(PicturePoint::pixel_center(best.x.into(), best.y.into()))
-    }
-
     /// The pixel nearest to a point; `None` when the point is not finite.
     fn pixel(&self, at: PicturePoint) -> Option<UVec2> {
         let last = (self.levels[0].size - 1).as_dvec2();
         at.0.is_finite().then(|| at.0.floor().clamp(DVec2::ZERO, last).as_uvec2())
     }
 
-    /// Pixels of the cheapest path, and its cost at the finest level that it was sought at.
-    fn pixels_to(&mut self, at: PicturePoint) -> Option<(Vec<UVec2>, u32)> {
+    /// Pixels of the cheapest path.
+    fn pixels_to(&mut self, at: PicturePoint) -> Option<Vec<UVec2>> {
         let target = self.pixel(at)?;
         let anchor = self.anchor.as_mut()?;
         let off = anchor.at.as_ivec2() - target.as_ivec2();
@@ -147,14 +123,14 @@ impl LiveWire {
         let [from, to] = [anchor.at, target].map(|at| at >> index as u32);
         let level = &self.levels[index];
         let search = anchor.searches[index].get_or_insert_with(|| level.window(from, &anchor.prices));
-        let mut cost = search.expand_to(to)?;
+        search.expand_to(to)?;
         let mut path = search.path(to);
         while index > 0 {
             let level = &self.levels[index - 1];
             let [from, to] = [anchor.at, target].map(|at| at >> (index - 1) as u32);
             let Some(mut corridor) = level.corridor(&path, &anchor.prices) else { break };
             corridor.start(from);
-            cost = corridor.expand_to(to)?;
+            corridor.expand_to(to)?;
             path = corridor.path(to);
             index -= 1;
         }
@@ -166,7 +142,7 @@ impl LiveWire {
                 [*first, *last] = [anchor.at, target];
             }
         }
-        Some((path, cost))
+        Some(path)
     }
 }
 

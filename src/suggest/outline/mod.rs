@@ -28,7 +28,7 @@ pub use grow::{GrowBound, GrowOptions, grow};
 pub use hints::ObjectHints;
 pub use livewire::LiveWire;
 pub use stroke::{Side, Stroke};
-pub use trace::{TracedOutline, outlines_of, polygon_of, simplified};
+pub use trace::{TracedOutline, outlines_of, polygon_of, simplified_line};
 
 use glam::UVec2;
 

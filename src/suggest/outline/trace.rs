@@ -1,12 +1,13 @@
 //! From a mask to polygons: outlines that stay editable.
 //!
 //! Borders are found by marching squares at half coverage, exact to a fraction of a pixel on soft masks, and thinned out
-//! by Douglas & Peucker (1973). A thinned polygon never crosses itself.
+//! by Douglas & Peucker (1973). A thinned polygon never crosses itself. Open lines are thinned out in the same way.
 
 use glam::DVec2;
 
 use super::stroke::distance_to_segment;
 use crate::picture::{Mask, PicturePoint};
+use crate::tour::geometry;
 
 /// Coverage at which the border runs.
 const LEVEL: f64 = 127.5;
@@ -51,8 +52,7 @@ pub fn polygon_of(mask: &Mask, tolerance: f64) -> Option<Vec<PicturePoint>> {
 
 /// A closed polygon with fewer corners, all of them its own; what is left out lies within `tolerance` pixels of a side. A
 /// polygon that does not cross itself never comes to.
-#[must_use]
-pub fn simplified(corners: &[PicturePoint], tolerance: f64) -> Vec<PicturePoint> {
+fn simplified(corners: &[PicturePoint], tolerance: f64) -> Vec<PicturePoint> {
     let is_fine = corners.len() > 3 && corners.iter().all(|corner| corner.0.is_finite());
     // NaN keeps all corners, too.
     if !is_fine || tolerance.is_nan() || tolerance <= 0.0 {
@@ -61,15 +61,27 @@ pub fn simplified(corners: &[PicturePoint], tolerance: f64) -> Vec<PicturePoint>
     let points: Vec<DVec2> = corners.iter().map(|corner| corner.0).collect();
     for halving in 0..=HALVINGS {
         let kept = kept(&points, tolerance / f64::from(1_u32 << halving));
-        if kept.len() >= 3 && !crosses_itself(&kept) {
-            return kept.into_iter().map(PicturePoint).collect();
+        if kept.len() >= 3 && geometry::crossing(&kept).is_none() {
+            return kept;
         }
     }
     corners.to_vec()
 }
 
+/// An open line with fewer points, in their order, its two ends among them; what is left out lies within `tolerance` pixels of
+/// what stays. Points that are not finite, and a tolerance that is not above 0, leave it as it is.
+#[must_use]
+pub fn simplified_line(points: &[PicturePoint], tolerance: f64) -> Vec<PicturePoint> {
+    let is_fine = points.len() > 2 && points.iter().all(|point| point.0.is_finite());
+    if !is_fine || tolerance.is_nan() || tolerance <= 0.0 {
+        return points.to_vec();
+    }
+    let points: Vec<DVec2> = points.iter().map(|point| point.0).collect();
+    thinned(&points, &[0, points.len() - 1], tolerance)
+}
+
 /// The corners that Douglas & Peucker keep of a closed polygon.
-fn kept(points: &[DVec2], tolerance: f64) -> Vec<DVec2> {
+fn kept(points: &[DVec2], tolerance: f64) -> Vec<PicturePoint> {
     // A ring has no ends: cut it at a corner and at the one farthest from it, the first being the one farthest from the
     // middle, so that it is a real corner.
     let middle = points.iter().sum::<DVec2>() / points.len() as f64;
@@ -80,12 +92,22 @@ fn kept(points: &[DVec2], tolerance: f64) -> Vec<DVec2> {
     let first = farthest(middle);
     let ring: Vec<DVec2> = points[first..].iter().chain(&points[..=first]).copied().collect();
     let second = (farthest(points[first]) + points.len() - first) % points.len();
-    let mut keep = vec![false; ring.len()];
-    keep[0] = true;
-    keep[second] = true;
-    let mut spans = vec![(0, second), (second, ring.len() - 1)];
+    let mut kept = thinned(&ring, &[0, second, ring.len() - 1], tolerance);
+    // The first corner again.
+    kept.pop();
+    kept
+}
+
+/// The points that Douglas & Peucker keep of a line between some that stay in any case: their indices from 0 to the last,
+/// in order.
+fn thinned(line: &[DVec2], stay: &[usize], tolerance: f64) -> Vec<PicturePoint> {
+    let mut keep = vec![false; line.len()];
+    for index in stay {
+        keep[*index] = true;
+    }
+    let mut spans: Vec<(usize, usize)> = stay.windows(2).map(|ends| (ends[0], ends[1])).collect();
     while let Some((from, to)) = spans.pop() {
-        let off = |index: usize| distance_to_segment(ring[index], ring[from], ring[to]);
+        let off = |index: usize| distance_to_segment(line[index], line[from], line[to]);
         let worst = (from + 1..to).map(|index| (index, off(index))).max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((index, distance)) = worst
             && distance > tolerance
@@ -94,27 +116,7 @@ fn kept(points: &[DVec2], tolerance: f64) -> Vec<DVec2> {
             spans.extend([(from, index), (index, to)]);
         }
     }
-    ring.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| *point).collect()
-}
-
-/// Whether two sides that are not neighbors meet.
-fn crosses_itself(points: &[DVec2]) -> bool {
-    let count = points.len();
-    let side = |i: usize| (points[i], points[(i + 1) % count]);
-    let turn = |p: DVec2, q: DVec2, r: DVec2| (q - p).perp_dot(r - p);
-    // Sides in the order of their left ends: only those that overlap along x are compared.
-    let mut order: Vec<usize> = (0..count).collect();
-    let left = |i: usize| side(i).0.x.min(side(i).1.x);
-    order.sort_by(|a, b| left(*a).total_cmp(&left(*b)));
-    order.iter().enumerate().any(|(rank, &i)| {
-        let (a, b) = side(i);
-        let right = a.x.max(b.x);
-        order[rank + 1..].iter().take_while(|j| left(**j) <= right).any(|&j| {
-            let is_neighbor = (i + 1) % count == j || (j + 1) % count == i;
-            let (c, d) = side(j);
-            !is_neighbor && turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0
-        })
-    })
+    line.iter().zip(keep).filter(|(_, keep)| *keep).map(|(point, _)| PicturePoint(*point)).collect()
 }
 
 /// Square pixels inside, above 0 for a border that keeps the mask at its right hand (y points down).

@@ -95,8 +95,7 @@ fn corners_that_touch_make_no_crossing() {
     let values = (0..19_200).map(|i| if (i % 160 / 3 + i / 160 / 3) % 2 == 0 { 220 } else { 35 });
     let mask = Mask::new(SIZE, values.collect()).unwrap();
     for outline in outlines_of(&mask, 0.7) {
-        let corners: Vec<_> = outline.corners.iter().map(|corner| corner.0).collect();
-        assert!(!crosses_itself(&corners));
+        assert_eq!(geometry::crossing(&outline.corners), None);
     }
 }
 
@@ -111,11 +110,40 @@ fn thinning_never_makes_a_polygon_cross_itself() {
     corners.extend([(60.0, 1.0), (61.0, 0.4), (30.0, 1.9), (10.0, 0.1)]);
     let comb = polygon(&corners);
     for tolerance in [0.5, 1.5, 3.0, 10.0, 100.0] {
-        let thin: Vec<_> = simplified(&comb, tolerance).iter().map(|corner| corner.0).collect();
-        let was = crosses_itself(&comb.iter().map(|corner| corner.0).collect::<Vec<_>>());
-        assert!(was || !crosses_itself(&thin), "at {tolerance}");
+        let thin = simplified(&comb, tolerance);
+        let was = geometry::crossing(&comb).is_some();
+        assert!(was || geometry::crossing(&thin).is_none(), "at {tolerance}");
     }
-    assert!(crosses_itself(&[DVec2::ZERO, DVec2::ONE, DVec2::X, DVec2::Y]));
+}
+
+#[test]
+fn a_thinned_line_keeps_its_ends_and_its_order() {
+    let straight: Vec<_> = (0..=100).map(|x| PicturePoint::pixel_center(x, 40)).collect();
+    assert_eq!(simplified_line(&straight, 1.0), [straight[0], straight[100]]);
+    // Pixel by pixel along an S whose start is farthest from its middle, then its end, then a loop over its own chord.
+    let way = |f: &dyn Fn(f64) -> DVec2| -> Vec<PicturePoint> {
+        (0..=400).map(|k| PicturePoint(f(f64::from(k) / 400.0).round() + 0.5)).collect()
+    };
+    let sine = way(&|t| DVec2::new(150.0 * t * t, 60.0 + 40.0 * (6.28 * t).sin()));
+    let back = sine.iter().rev().copied().collect();
+    let loops = way(&|t| DVec2::new(120.0 * t - 60.0 * (9.42 * t).sin(), 60.0 + 50.0 * (6.28 * t).cos()));
+    for line in [sine, back, loops] {
+        for tolerance in [1.0, 3.0] {
+            let thin = simplified_line(&line, tolerance);
+            assert_eq!((thin.first(), thin.last()), (line.first(), line.last()));
+            assert!(thin.len() < 60, "{} of {} points at {tolerance}", thin.len(), line.len());
+            let mut rest = line.iter();
+            assert!(thin.iter().all(|point| rest.any(|other| other == point)), "in another order");
+            let near = |p: DVec2| {
+                let sides = thin.windows(2).map(|ends| distance_to_segment(p, ends[0].0, ends[1].0));
+                sides.fold(f64::MAX, f64::min)
+            };
+            let gap = line.iter().map(|point| near(point.0)).fold(0.0, f64::max);
+            assert!(gap <= tolerance + 1e-9, "{gap} px at {tolerance}");
+        }
+    }
+    assert_eq!(simplified_line(&straight, f64::NAN), straight);
+    assert_eq!(simplified_line(&straight[..1], 1.0), straight[..1]);
 }
 
 #[test]
