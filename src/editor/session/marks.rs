@@ -221,7 +221,7 @@ impl Session {
         else {
             return;
         };
-        if let Some(patch) = MaskPatch::of(&canvas.mask(), changed.rect()) {
+        if let Some(patch) = MaskPatch::of(&canvas.mask(), changed) {
             self.edit(&Edit::Paint { name, patch });
         }
     }

@@ -1,4 +1,4 @@
-//! Painting and erasing on a mask, with undo.
+//! Painting and erasing on a mask.
 //!
 //! A stroke covers by the distance to its polyline, not by dabs, so it shows no beads, and going over the same place
 //! again changes nothing: a stroke painted piece by piece as the pointer moves is the stroke painted at once.
@@ -36,32 +36,10 @@ pub struct MaskCanvas {
     coverage: Vec<u8>,
 }
 
-/// A block of a canvas as it was, to be [swapped](MaskCanvas::swap) in: one for undo, the same for redo.
-#[derive(Clone, PartialEq, Eq)]
-pub struct MaskPatch {
-    rect: PixelRect,
-    coverage: Vec<u8>,
-}
-
 impl std::fmt::Debug for MaskCanvas {
     /// The size alone: nobody reads millions of pixels.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("MaskCanvas").field("size", &self.size).finish_non_exhaustive()
-    }
-}
-
-impl std::fmt::Debug for MaskPatch {
-    /// The block alone.
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("MaskPatch").field("rect", &self.rect).finish_non_exhaustive()
-    }
-}
-
-impl MaskPatch {
-    /// The block that it replaces, pixels.
-    #[must_use]
-    pub const fn rect(&self) -> PixelRect {
-        self.rect
     }
 }
 
@@ -97,71 +75,33 @@ impl MaskCanvas {
         mask.unwrap_or_else(|_| unreachable!("a canvas has its mask's size and count"))
     }
 
-    /// Width and height, pixels.
-    #[must_use]
-    pub const fn size(&self) -> UVec2 {
-        self.size
-    }
-
     /// All values, 0–255, row by row from the top left.
     #[must_use]
     pub fn values(&self) -> &[u8] {
         &self.coverage
     }
 
-    /// Draws along a polyline (one point: a dab) and returns how the smallest block that changed was before; `None` when
-    /// nothing changed. Points that are not finite are left out.
-    pub fn draw(&mut self, brush: &Brush, points: &[PicturePoint]) -> Option<MaskPatch> {
+    /// Draws along a polyline (one point: a dab) and returns the smallest block that changed, pixels; `None` when nothing
+    /// did. Points that are not finite are left out.
+    pub fn draw(&mut self, brush: &Brush, points: &[PicturePoint]) -> Option<PixelRect> {
         let width = self.size.x;
         let mut changed: Option<PixelRect> = None;
-        let mut before: Vec<(u32, u8)> = Vec::new();
         let coverage = &mut self.coverage;
         for_each_near(self.size, points, brush.reach() + 1.0, |x, y, distance| {
-            let index = (y * width + x) as usize;
+            let value = &mut coverage[(y * width + x) as usize];
             let effect = brush.effect(distance);
-            let old = coverage[index];
             let new = match brush.mode {
-                BrushMode::Paint => old.max(effect),
-                BrushMode::Erase => old.min(255 - effect),
+                BrushMode::Paint => (*value).max(effect),
+                BrushMode::Erase => (*value).min(255 - effect),
             };
-            if new == old {
-                return;
+            if new != *value {
+                *value = new;
+                let pixel = UVec2::new(x, y);
+                let rect = changed.get_or_insert(PixelRect { min: pixel, max: pixel + 1 });
+                (rect.min, rect.max) = (rect.min.min(pixel), rect.max.max(pixel + 1));
             }
-            coverage[index] = new;
-            before.push((index as u32, old));
-            let pixel = UVec2::new(x, y);
-            let rect = changed.get_or_insert(PixelRect { min: pixel, max: pixel + 1 });
-            (rect.min, rect.max) = (rect.min.min(pixel), rect.max.max(pixel + 1));
         });
-        let rect = changed?;
-        let mut patch = MaskPatch { rect, coverage: self.block(rect) };
-        // What changed first last: segments overlap, and the oldest value is the one before.
-        for (index, old) in before.into_iter().rev() {
-            let [x, y] = [index % width - rect.min.x, index / width - rect.min.y];
-            patch.coverage[(y * rect.size().x + x) as usize] = old;
-        }
-        Some(patch)
-    }
-
-    /// Exchanges a block for what a patch holds: swapped once it is undone, swapped again redone. A patch of a larger
-    /// canvas changes nothing.
-    pub fn swap(&mut self, patch: &mut MaskPatch) {
-        if patch.rect.max.cmpgt(self.size).any() {
-            return;
-        }
-        let now = self.block(patch.rect);
-        let columns = patch.rect.min.x as usize..patch.rect.max.x as usize;
-        let rows = self.coverage.chunks_exact_mut(self.size.x as usize).skip(patch.rect.min.y as usize);
-        for (row, values) in rows.zip(patch.coverage.chunks_exact(columns.len())) {
-            row[columns.clone()].copy_from_slice(values);
-        }
-        patch.coverage = now;
-    }
-
-    fn block(&self, rect: PixelRect) -> Vec<u8> {
-        let columns = rect.min.x as usize..rect.max.x as usize;
-        let rows = self.coverage.chunks_exact(self.size.x as usize).skip(rect.min.y as usize);
-        rows.take(rect.size().y as usize).flat_map(|row| &row[columns.clone()]).copied().collect()
+        changed
     }
 }
 
@@ -199,27 +139,28 @@ mod tests {
         let line = points(&[(10.0, 10.0), (50.0, 33.0), (55.0, 60.0), (90.0, 20.0)]);
         let [mut whole, mut pieces] = [canvas(0), canvas(0)];
         whole.draw(&SOFT, &line);
-        line.windows(2).for_each(|piece| drop(pieces.draw(&SOFT, piece)));
+        for piece in line.windows(2) {
+            pieces.draw(&SOFT, piece);
+        }
         assert!(whole == pieces);
     }
 
     #[test]
-    fn undo_and_redo_are_one_small_patch() {
-        let mut canvas = canvas(180);
-        let untouched = canvas.clone();
+    fn a_stroke_tells_the_smallest_block_that_changed() {
+        let before = canvas(180);
+        let mut canvas = before.clone();
         let erase = Brush { radius: 6.0, hardness: 1.0, mode: BrushMode::Erase };
-        let mut patch = canvas.draw(&erase, &points(&[(30.0, 30.0), (60.0, 40.0), (40.0, 45.0)])).unwrap();
-        let erased = canvas.clone();
-        let rect = patch.rect();
-        assert!(
-            rect.min.cmpge(UVec2::new(23, 23)).all() && rect.max.cmple(UVec2::new(67, 52)).all(),
-            "{rect:?}"
-        );
-        canvas.swap(&mut patch);
-        assert!(canvas == untouched, "undone");
-        canvas.swap(&mut patch);
-        assert!(canvas == erased, "redone");
-        assert!(canvas.draw(&erase, &points(&[(30.0, 30.0)])).is_none(), "nothing is left to erase there");
+        let stroke = points(&[(30.0, 30.0), (60.0, 40.0), (40.0, 45.0)]);
+        let rect = canvas.draw(&erase, &stroke).unwrap();
+        let changed: Vec<UVec2> = (0..SIZE.element_product())
+            .filter(|i| canvas.values()[*i as usize] != before.values()[*i as usize])
+            .map(|i| UVec2::new(i % SIZE.x, i / SIZE.x))
+            .collect();
+        let min = changed.iter().copied().reduce(UVec2::min).unwrap();
+        let max = changed.iter().copied().reduce(UVec2::max).unwrap() + 1;
+        assert_eq!((rect.min, rect.max), (min, max));
+        assert!(min.cmpge(UVec2::new(23, 23)).all() && max.cmple(UVec2::new(67, 52)).all(), "{rect:?}");
+        assert_eq!(canvas.draw(&erase, &stroke), None, "nothing is left to erase there");
     }
 
     #[test]
