@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::levels::Shifts;
 use super::plane::box_sum;
-use super::view::{Kind, NOISE, View};
+use super::view::{Kind, View};
 
 /// How far neighbors are asked, pixels, and how many.
 const REACH: f32 = 20.0;
@@ -23,6 +23,9 @@ const WITH: usize = 6;
 const LIKE: f32 = 20.0;
 /// As part of what a pixel was matched with, this much texture of its own counts half.
 const LITTLE: f32 = 0.1;
+/// Standard deviation of a pixel's noise against those next to it, codes. Lower than what contrasts are held against: where
+/// more is taken for noise, nothing in haze has a say but its edge, which then speaks for what lies behind it too.
+const NOISE: f32 = 1.0;
 /// Votes that make up full confidence; one is a trusted neighbor of the same color.
 const ENOUGH: f32 = 0.8;
 

@@ -93,6 +93,21 @@ fn a_receding_wall_has_a_distance_of_its_own_in_every_column() {
 }
 
 #[test]
+fn hills_in_haze_are_known_by_their_faint_texture() {
+    let mut lake = hills(-2.0, 0.0);
+    lake.clouds = false;
+    let mut shot = lake.shot();
+    // Haze leaves a tenth of the contrast of land and water.
+    let hazy = |c: [u8; 3]| c.map(|c| (160.0 + 0.1 * (f64::from(c) - 160.0)).round() as u8);
+    let land = |i: usize| !shot.distance[i].is_infinite();
+    let pixels = shot.picture.pixels().iter().enumerate();
+    let pixels = pixels.map(|(i, &c)| if land(i) { hazy(c) } else { c }).collect();
+    shot.picture = Picture::new(shot.picture.size(), pixels).unwrap();
+    let quality = quality(&shot, &map_of(&shot, &lake.camera));
+    assert!(quality.known > 0.7 && quality.within_tenth > 0.75, "{quality:?}");
+}
+
+#[test]
 fn ripples_leave_less_but_hardly_anything_wrong() {
     for (slope, known, median) in [(0.003, 0.6, 0.03), (0.006, 0.3, 0.04)] {
         let lake = Lake { slope, ..hills(-2.0, 0.0) };
