@@ -29,6 +29,20 @@ pub(super) struct Tracing {
     pub(super) way: Vec<PicturePoint>,
 }
 
+/// How many outlines that were found are remembered together with what was said.
+const OUTLINES: usize = 32;
+
+/// What was said about an object's outline, and what was found: of use while the object has that outline, or has it again.
+#[derive(Clone, Debug)]
+pub(super) struct Outlining {
+    object: usize,
+    corners: Option<[PicturePoint; 2]>,
+    strokes: Vec<Stroke>,
+    /// The outline before the first stroke, where no box began.
+    earlier: Option<Mask>,
+    found: PackedMask,
+}
+
 impl Session {
     fn picture(&self) -> Option<Arc<DecodedPicture>> {
         self.desk.as_ref()?.picture().cloned()
@@ -120,10 +134,17 @@ impl Session {
         let Some(picture) = self.picture() else { return };
         let (scale, size) = (self.scale(&picture.picture), picture.picture.size());
         let at = RegionAt::Object(object);
-        let corners = corners.map(|corners| corners.map(|corner| PicturePoint(corner.0 * scale)));
-        let strokes: Vec<Stroke> = stroke.iter().map(|stroke| scaled(stroke, scale)).collect();
-        // A box begins anew.
-        let earlier = if corners.is_some() { None } else { self.mask_of(at, size, scale) };
+        let boxed = corners.map(|corners| corners.map(|corner| PicturePoint(corner.0 * scale)));
+        let drawn = stroke.map(|stroke| scaled(stroke, scale));
+        // A box begins anew; a stroke is one more of those before it, unless the outline is another by now.
+        let mask = if boxed.is_some() { None } else { self.mask_of(at, size, scale) };
+        let packed = mask.as_ref().map(PackedMask::new);
+        let is_same = |before: &&Outlining| before.object == object && packed.as_ref() == Some(&before.found);
+        let (corners, mut strokes, earlier) = match self.outlinings.iter().rev().find(is_same) {
+            Some(before) => (before.corners, before.strokes.clone(), before.earlier.clone()),
+            None => (boxed, Vec::new(), mask),
+        };
+        strokes.extend(drawn);
         let motion = self.desk.as_ref().and_then(|desk| desk.tour().objects.get(object)).map(|o| &o.motion);
         let is_solid = !matches!(motion, Some(Motion::Sway(_)));
         let title = self.studio.language.text().work.outlining;
@@ -133,8 +154,13 @@ impl Session {
             Box::new(move |session: &mut Self| match cut {
                 Ok(cut) => {
                     session.set_mask(at, &cut.mask);
-                    if corners.is_some() {
+                    if boxed.is_some() {
                         session.set_contact(object, &cut.mask, scale);
+                    }
+                    let found = PackedMask::new(&cut.mask);
+                    session.outlinings.push_back(Outlining { object, corners, strokes, earlier, found });
+                    if session.outlinings.len() > OUTLINES {
+                        session.outlinings.pop_front();
                     }
                 }
                 Err(error) => session.fail(&error),
@@ -194,6 +220,7 @@ impl Session {
     /// Forgets what was prepared for another picture.
     pub(super) fn forget_picture(&mut self) {
         self.tracing = Tracing::default();
+        self.outlinings.clear();
     }
 
     /// Lets the machine propose: all at once, or a part of it.

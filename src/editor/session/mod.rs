@@ -10,6 +10,7 @@ mod job;
 mod marks;
 mod textures;
 
+use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
@@ -20,7 +21,7 @@ use self::check::{Checked, Checking};
 use self::files::Asked;
 use self::flight::Flight;
 use self::job::Job;
-use self::marks::Tracing;
+use self::marks::{Outlining, Tracing};
 use self::textures::Textures;
 use super::{DeskView, Message, Question, Request, Studio, Suggestion, TourView, View, egui, studio_ui};
 use crate::plugin::PictureTourSystems;
@@ -62,6 +63,7 @@ pub struct Session {
     checked: Checked,
     checking: Checking,
     tracing: Tracing,
+    outlinings: VecDeque<Outlining>,
     /// To be opened once the app runs.
     first: Option<PathBuf>,
     exit: bool,
@@ -88,6 +90,7 @@ impl Session {
             checked: Checked::default(),
             checking: Checking::default(),
             tracing: Tracing::default(),
+            outlinings: VecDeque::new(),
             first: None,
             exit: false,
         }
