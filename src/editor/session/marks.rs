@@ -1,31 +1,21 @@
-//! Marks that the machine helps to make: regions grown and refined, strokes painted, ways along edges.
+//! Marks that the machine helps to make: regions grown, strokes painted, ways along edges.
 
 use std::sync::Arc;
 
 use glam::UVec2;
 
 use super::Session;
-use super::job::Job;
 use crate::editor::BrushStroke;
 use crate::picture::{DecodedPicture, Mask, Picture, PicturePoint};
 use crate::suggest::outline::{
-    Brush, BrushMode, GrowBound, GrowOptions, LiveWire, MaskCanvas, ObjectHints, Side, Stroke, contact_line,
-    grab_cut, grow, simplified_line,
+    Brush, BrushMode, GrowBound, GrowOptions, LiveWire, MaskCanvas, Side, Stroke, contact_line, grow,
+    simplified_line,
 };
+use crate::tour::Region;
 use crate::tour::edit::{Edit, MaskPatch, PackedMask, RegionAt};
-use crate::tour::{Motion, Region};
 
 /// How far a traced way may be simplified, picture pixels.
 const TRACE_TOLERANCE: f64 = 1.5;
-
-/// An outline that is to be found.
-#[derive(Debug)]
-pub(super) struct Refinement {
-    /// The object's name.
-    object: String,
-    corners: Option<[PicturePoint; 2]>,
-    stroke: Option<BrushStroke>,
-}
 
 /// The way along edges that is being traced.
 #[derive(Debug, Default)]
@@ -84,7 +74,7 @@ impl Session {
     }
 
     /// Sets a region to a mask.
-    fn set_mask(&mut self, at: RegionAt, mask: &Mask) {
+    pub(super) fn set_mask(&mut self, at: RegionAt, mask: &Mask) {
         let name = self.name_of(at);
         let region = Some(Region::Mask(name.clone()));
         self.edit(&Edit::Many(vec![
@@ -133,64 +123,6 @@ impl Session {
             RegionAt::Sky => Some(GrowBound { line, is_above: true }),
             RegionAt::Band(_) | RegionAt::Object(_) => None,
         }
-    }
-
-    /// Finds an object's outline in a box or by one more stroke, and sets it; one after the other, for each begins with
-    /// what the one before found.
-    pub(super) fn refine(
-        &mut self,
-        object: usize,
-        corners: Option<[PicturePoint; 2]>,
-        stroke: Option<BrushStroke>,
-    ) {
-        let named = self.desk.as_ref().and_then(|desk| desk.tour().objects.get(object));
-        if let Some(object) = named.map(|object| object.name.clone()) {
-            self.later.push_back(Refinement { object, corners, stroke });
-            self.refine_next();
-        }
-    }
-
-    /// Begins with the next outline that waits, unless one is being found.
-    pub(super) fn refine_next(&mut self) {
-        if self.jobs.iter().any(Job::is_refinement) {
-            return;
-        }
-        let (Some(picture), Some(refinement)) = (self.picture(), self.later.pop_front()) else { return };
-        let Refinement { object: name, corners, stroke } = refinement;
-        let Some(object) = self.object_of(&name) else { return self.refine_next() };
-        let (scale, size) = (self.scale(&picture.picture), picture.picture.size());
-        let corners = corners.map(|corners| corners.map(|corner| PicturePoint(corner.0 * scale)));
-        let strokes: Vec<Stroke> = stroke.iter().map(|stroke| scaled(stroke, scale)).collect();
-        // A box begins anew.
-        let earlier =
-            if corners.is_some() { None } else { self.mask_of(RegionAt::Object(object), size, scale) };
-        let motion = self.desk.as_ref().and_then(|desk| desk.tour().objects.get(object)).map(|o| &o.motion);
-        let is_solid = !matches!(motion, Some(Motion::Sway(_)));
-        let title = self.studio.language.text().work.outlining;
-        self.start(title, move |progress| {
-            let hints = ObjectHints { corners, strokes: &strokes, earlier: earlier.as_ref(), is_solid };
-            let cut = grab_cut(&picture.picture, &hints, &|share, _| progress.at(share));
-            Box::new(move |session: &mut Self| {
-                let Some(object) = session.object_of(&name) else { return };
-                match cut {
-                    Ok(cut) => {
-                        session.set_mask(RegionAt::Object(object), &cut.mask);
-                        if corners.is_some() {
-                            session.set_contact(object, &cut.mask, scale);
-                        }
-                    }
-                    Err(error) => session.fail(&error),
-                }
-            })
-        });
-        if let Some(job) = self.jobs.last_mut() {
-            job.mark_refinement();
-        }
-    }
-
-    /// The number that an object has now.
-    fn object_of(&self, name: &str) -> Option<usize> {
-        self.desk.as_ref()?.tour().objects.iter().position(|object| object.name == name)
     }
 
     pub(super) fn set_contact(&mut self, object: usize, mask: &Mask, scale: f64) {
@@ -268,11 +200,12 @@ impl Session {
     /// Forgets what was prepared for another picture.
     pub(super) fn forget_picture(&mut self) {
         self.tracing = Tracing::default();
+        self.outlinings.clear();
     }
 }
 
 /// A stroke in pixels of the picture's file.
-fn scaled(stroke: &BrushStroke, scale: f64) -> Stroke {
+pub(super) fn scaled(stroke: &BrushStroke, scale: f64) -> Stroke {
     let points: Vec<PicturePoint> = stroke.points.iter().map(|point| PicturePoint(point.0 * scale)).collect();
     let side = if stroke.inside { Side::Inside } else { Side::Outside };
     Stroke { points, radius: stroke.radius * scale, side }

@@ -8,6 +8,7 @@ mod files;
 mod flight;
 mod job;
 mod marks;
+mod outlines;
 mod propose;
 mod textures;
 
@@ -22,7 +23,8 @@ use self::check::{Checked, Checking, News};
 use self::files::Asked;
 use self::flight::Flight;
 use self::job::Job;
-use self::marks::{Refinement, Tracing};
+use self::marks::Tracing;
+use self::outlines::{Outlining, Refinement};
 use self::textures::Textures;
 use super::{
     DeskView, Message, Question, Request, Studio, Suggestion, Task, TourView, View, egui, studio_ui,
@@ -70,6 +72,7 @@ pub struct Session {
     checked: Checked,
     checking: Checking,
     tracing: Tracing,
+    outlinings: VecDeque<Outlining>,
     /// To be opened once the app runs.
     first: Option<PathBuf>,
     /// Whether another document was opened, and the tour of the one before is still shown.
@@ -102,6 +105,7 @@ impl Session {
             checked: Checked::default(),
             checking: Checking::default(),
             tracing: Tracing::default(),
+            outlinings: VecDeque::new(),
             first: None,
             another: false,
             leaves: false,

@@ -1,18 +1,17 @@
 //! `GrabCut`: an object's mask from a box, a few strokes, or an earlier mask (Rother, Kolmogorov, Blake 2004; notes §3.2).
 //!
-//! Each side is a mixture of colors; fitting the mixtures and cutting the grid take turns, and none of the two ever
-//! raises the energy. The rounds run on few cells, then the border is cut once on up to a million; the mask has the
+//! Each side is a mixture of colors at their places; fitting the mixtures and cutting the grid take turns until the energy
+//! falls no more. The rounds run on few cells, then the border is cut once on up to a million; the mask has the
 //! picture's size.
 
-use glam::Vec3;
 use rayon::prelude::*;
 
-use super::OutlineError;
-use super::grid::Grid;
+use super::grid::{Grid, Weights};
 use super::guided::upsampled;
 use super::hints::ObjectHints;
 use super::mixture::Mixture;
 use super::parts::{fill_holes, parts};
+use super::{OutlineError, Side};
 use crate::picture::{Mask, Picture, PixelRect};
 
 /// Most cells of the rounds, and of the last cut.
@@ -28,6 +27,9 @@ const LEAST_SHARE: f64 = 0.1;
 
 /// Parts with less than this share of the object's largest one are specks.
 const SPECK: f64 = 0.002;
+
+/// Parts of the two mixtures: surroundings are of more kinds than an object.
+const PARTS: [usize; 2] = [10, 6];
 
 /// Seeds of the two mixtures.
 const SEEDS: [u64; 2] = [1, 2];
@@ -64,11 +66,14 @@ pub fn grab_cut(
     let rect = hints.rect(picture.size())?;
     let coarse = Grid::new(picture, hints, rect, ROUND_CELLS);
     let mut rounds = None;
-    let guesses = hints.first_labels(picture.size(), &coarse.scaled, &coarse.known);
+    // Who has drawn on an object has seen the guess, and it may be as small as the strokes say.
+    let is_stroked = hints.strokes.iter().any(|stroke| stroke.side == Side::Inside);
+    let guesses = hints.first_labels(picture.size(), &coarse);
     for (guess, begin) in guesses.iter().zip([0.05, 0.35]) {
         let found = run_rounds(&coarse, guess, &|share| progress(begin + 0.3 * share, "cutting out"))?;
-        let is_likely =
-            found.as_ref().is_some_and(|rounds| coarse.share_of_free(&rounds.inside) >= LEAST_SHARE);
+        let is_likely = found
+            .as_ref()
+            .is_some_and(|rounds| is_stroked || coarse.share_of_free(&rounds.inside) >= LEAST_SHARE);
         rounds = found.or(rounds);
         if is_likely {
             break;
@@ -113,9 +118,12 @@ fn run_rounds(
     guess: &[Option<bool>],
     progress: &dyn Fn(f32) -> bool,
 ) -> Result<Option<Rounds>, OutlineError> {
-    let colors = &grid.scaled.colors;
-    let mixture =
-        |side: bool| Mixture::clustered(colors, SEEDS[usize::from(side)], |cell| guess[cell] == Some(side));
+    let weights = grid.weights(guess);
+    let mixture = |side: bool| {
+        Mixture::clustered(&grid.samples, PARTS[usize::from(side)], SEEDS[usize::from(side)], |cell| {
+            if guess[cell] == Some(side) { weights.of(grid, cell, side) } else { 0.0 }
+        })
+    };
     let (Some(outer), Some(inner)) = (mixture(false), mixture(true)) else { return Ok(None) };
     let mut rounds = Rounds { inside: Vec::new(), mixtures: [outer, inner], energies: Vec::new() };
     for round in 0..ROUNDS {
@@ -124,13 +132,19 @@ fn run_rounds(
             return Err(OutlineError::Cancelled);
         }
         if round > 0 {
-            let Some(mixtures) = refitted(colors, &rounds.inside, &rounds.mixtures) else { return Ok(None) };
+            let Some(mixtures) = refitted(grid, weights, &rounds.inside, &rounds.mixtures) else {
+                return Ok(None);
+            };
             rounds.mixtures = mixtures;
         }
         let costs = grid.costs(&rounds.mixtures);
-        rounds.inside = grid.cut(&costs, &go_on).ok_or(OutlineError::Cancelled)?;
-        let energy = grid.energy(&costs, &rounds.inside);
+        let inside = grid.cut(&costs, &go_on).ok_or(OutlineError::Cancelled)?;
+        let energy = grid.energy(&costs, &inside);
         let last = rounds.energies.last().copied();
+        if last.is_some_and(|last| energy > last) {
+            break;
+        }
+        rounds.inside = inside;
         rounds.energies.push(energy);
         if last.is_some_and(|last| last - energy < LEAST_GAIN * energy.abs()) {
             break;
@@ -140,13 +154,18 @@ fn run_rounds(
 }
 
 /// The mixtures of both sides as labeled; `None` when a side is empty.
-fn refitted(colors: &[Vec3], inside: &[bool], mixtures: &[Mixture; 2]) -> Option<[Mixture; 2]> {
-    let part_of: Vec<u8> = colors
+fn refitted(grid: &Grid, weights: Weights, inside: &[bool], mixtures: &[Mixture; 2]) -> Option<[Mixture; 2]> {
+    let samples = &grid.samples;
+    let part_of: Vec<u8> = samples
         .par_iter()
         .zip(inside)
-        .map(|(color, inside)| mixtures[usize::from(*inside)].cheapest(*color).0)
+        .map(|(sample, inside)| mixtures[usize::from(*inside)].cheapest(sample).0)
         .collect();
-    let fit = |side: bool| Mixture::fit(colors, |cell| (inside[cell] == side).then_some(part_of[cell]));
+    let fit = |side: bool| {
+        Mixture::fit(samples, |cell| {
+            (inside[cell] == side).then(|| (part_of[cell], weights.of(grid, cell, side)))
+        })
+    };
     Some([fit(false)?, fit(true)?])
 }
 

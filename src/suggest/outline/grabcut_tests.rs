@@ -154,3 +154,52 @@ fn a_solid_object_has_no_holes() {
     };
     assert_eq!((middle(false), middle(true)), (0, 255));
 }
+
+/// How well an object of the world A1 is found (intersection over union of what is at least half covered) in the box
+/// around what its true mask at least half covers, grown by a twentieth, with strokes.
+fn found_in_a1(mask: &str, strokes: &[Stroke], is_solid: bool) -> f64 {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/a1");
+    let bytes = |file: &str| std::fs::read(folder.join(file)).unwrap();
+    let picture = crate::picture::decode_picture(&bytes("input.png"), "input.png").unwrap().picture;
+    let truth = crate::picture::decode_mask(&bytes(mask), mask, picture.size()).unwrap();
+    let solid = truth.values().iter().map(|value| if *value >= 128 { 255 } else { 0 }).collect();
+    let bounds = Mask::new(truth.size(), solid).unwrap().bounds().unwrap();
+    let grown = bounds.size().as_dvec2() * 0.05;
+    let corners = [bounds.min.as_dvec2() - grown, bounds.max.as_dvec2() + grown].map(PicturePoint);
+    let hints = ObjectHints { corners: Some(corners), strokes, is_solid, ..Default::default() };
+    let cut = grab_cut(&picture, &hints, &|_, _| true).unwrap();
+    assert_never_rises(&cut.energies);
+    let pairs = || cut.mask.values().iter().zip(truth.values()).map(|(a, b)| [*a >= 128, *b >= 128]);
+    pairs().filter(|[a, b]| *a && *b).count() as f64 / pairs().filter(|[a, b]| *a || *b).count() as f64
+}
+
+fn line(points: &[(f64, f64)]) -> Vec<PicturePoint> {
+    points.iter().map(|(x, y)| PicturePoint::new(*x, *y)).collect()
+}
+
+#[test]
+fn a_house_takes_a_box_and_two_strokes_along_its_foundation() {
+    let strokes = [
+        Stroke::inside(line(&[(757.5, 287.5), (753.5, 288.5), (705.5, 288.5), (701.5, 286.5)]), 1.3),
+        Stroke::inside(line(&[(802.5, 286.5), (798.5, 288.5), (774.5, 288.5), (772.5, 286.5)]), 1.3),
+    ];
+    let found = found_in_a1("masks/obj_1_house.png", &strokes, true);
+    assert!(found > 0.97, "{found}");
+}
+
+#[test]
+fn a_rock_over_its_own_mirror_image_takes_a_box_and_a_stroke_beside_it() {
+    let beside = Stroke::outside(line(&[(706.5, 321.5), (718.5, 309.5), (731.5, 303.5)]), 5.0);
+    let found = found_in_a1("masks/obj_3_rock.png", &[beside], true);
+    assert!(found > 0.97, "{found}");
+}
+
+#[test]
+fn foliage_takes_a_box_and_a_stroke_on_the_trunk_and_one_beside_it() {
+    let strokes = [
+        Stroke::outside(line(&[(114.5, 262.5), (102.5, 272.5), (62.5, 277.5), (45.5, 284.5)]), 5.0),
+        Stroke::inside(line(&[(128.5, 293.5), (131.5, 289.5), (131.5, 257.5), (130.5, 253.5)]), 2.3),
+    ];
+    let found = found_in_a1("masks/obj_2_tree.png", &strokes, false);
+    assert!(found > 0.9, "{found}");
+}

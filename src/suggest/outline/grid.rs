@@ -1,15 +1,17 @@
 //! A block of the picture as a grid to be cut: what is certain, what borders cost, the cut of least energy.
 
+use glam::{DVec2, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::hints::ObjectHints;
 use super::max_flow::{GridCut, STEPS};
-use super::mixture::Mixture;
+use super::mixture::{Mixture, PLACE, Sample};
 use super::scaled::Scaled;
 use crate::picture::{Picture, PixelRect};
 
-/// What a border across even color costs a link (γ of the paper).
+/// What a border across even color costs a link (γ of the paper): of a body, and of foliage, which is all border.
 const GAMMA: f32 = 50.0;
+const LEAF_GAMMA: f32 = 20.0;
 
 /// Steps of energy: capacities are integers.
 const SCALE: f32 = 65_536.0;
@@ -21,6 +23,10 @@ const CERTAIN: i32 = 1 << 29;
 /// colors decide, places where they are undecided.
 const LEAN: f32 = 2.0;
 
+/// What strokes weigh against all that is on their side, when they are a small part of it; and a cell of them at most.
+const STROKES: f32 = 0.3;
+const MOST_WEIGHT: f32 = 30.0;
+
 /// How far from the border of a coarser grid the finer one may run, cells of the coarser.
 const BAND: usize = 4;
 
@@ -28,6 +34,10 @@ const BAND: usize = 4;
 #[derive(Debug)]
 pub(super) struct Grid {
     pub scaled: Scaled,
+    /// Color and place of each cell.
+    pub samples: Vec<Sample>,
+    /// Whether a stroke says what a cell is.
+    pub is_stroked: Vec<bool>,
     /// What is certain of each cell.
     pub known: Vec<Option<bool>>,
     /// What a border towards the neighbors at the steps 0, 2, 4, 6 costs, in steps of energy.
@@ -36,12 +46,25 @@ pub(super) struct Grid {
     lean: Vec<f32>,
 }
 
+/// How much a stroked cell counts outside and inside.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weights([f32; 2]);
+
+impl Weights {
+    /// How much a cell labeled `side` counts.
+    pub(super) fn of(self, grid: &Grid, cell: usize, side: bool) -> f32 {
+        if grid.is_stroked[cell] { self.0[usize::from(side)] } else { 1.0 }
+    }
+}
+
 impl Grid {
     /// The block `rect` on at most `most` cells (nearly).
     pub(super) fn new(picture: &Picture, hints: &ObjectHints, rect: PixelRect, most: u32) -> Self {
         let scaled = Scaled::new(picture, rect, most);
-        let known = hints.known(picture.size(), &scaled);
-        Self { links: links(&scaled), lean: lean(&scaled, &known), known, scaled }
+        let (known, is_stroked) = hints.known(picture.size(), &scaled);
+        let samples = samples(&scaled, hints.extent(picture.size(), rect));
+        let gamma = if hints.is_solid { GAMMA } else { LEAF_GAMMA };
+        Self { links: links(&scaled, gamma), lean: lean(&scaled, &known), samples, is_stroked, known, scaled }
     }
 
     /// Makes certain what a coarser grid says farther than the band from its border.
@@ -70,12 +93,23 @@ impl Grid {
         }
     }
 
+    /// How much a stroked cell counts on each side, labeled so.
+    pub(super) fn weights(&self, labels: &[Option<bool>]) -> Weights {
+        let weight = |side: bool| {
+            let all = labels.iter().filter(|label| **label == Some(side)).count() as f32;
+            let stroked = self.known.iter().zip(&self.is_stroked);
+            let stroked = stroked.filter(|(known, is)| **is && **known == Some(side)).count() as f32;
+            (STROKES * all / stroked.max(1.0)).clamp(1.0, MOST_WEIGHT)
+        };
+        Weights([weight(false), weight(true)])
+    }
+
     /// What each cell costs outside and inside, for its color and its place.
     pub(super) fn costs(&self, mixtures: &[Mixture; 2]) -> Vec<[f32; 2]> {
-        let cells = self.scaled.colors.par_iter().zip(&self.lean);
+        let cells = self.samples.par_iter().zip(&self.lean);
         cells
-            .map(|(color, lean)| {
-                let [outer, inner] = [0, 1].map(|side| mixtures[side].cheapest(*color).1);
+            .map(|(sample, lean)| {
+                let [outer, inner] = [0, 1].map(|side| mixtures[side].cheapest(sample).1);
                 [outer + (-lean).max(0.0), inner + lean.max(0.0)]
             })
             .collect()
@@ -128,7 +162,7 @@ impl Grid {
 }
 
 /// What a border between a cell and its neighbors at the steps 0, 2, 4, 6 costs, in steps of energy; 0 beyond the block.
-fn links(scaled: &Scaled) -> Vec<[i32; 4]> {
+fn links(scaled: &Scaled, gamma: f32) -> Vec<[i32; 4]> {
     let (width, height) = (scaled.width, scaled.height);
     let neighbor = |cell: usize, step: usize| {
         let x = cell % width + 1;
@@ -162,11 +196,21 @@ fn links(scaled: &Scaled) -> Vec<[i32; 4]> {
             [0, 2, 4, 6].map(|step| {
                 neighbor(cell, step).map_or(0, |next| {
                     let length = if step < 4 { 1.0 } else { std::f32::consts::SQRT_2 };
-                    (SCALE * GAMMA * (-beta * contrast(cell, next)).exp() / length) as i32
+                    (SCALE * gamma * (-beta * contrast(cell, next)).exp() / length) as i32
                 })
             })
         })
         .collect()
+}
+
+/// Color and place of each cell, the place as a share of `extent`, pixels.
+fn samples(scaled: &Scaled, extent: DVec2) -> Vec<Sample> {
+    let step = (f64::from(scaled.factor) / extent).as_vec2() * PLACE;
+    let sample = |(cell, color): (usize, &Vec3)| {
+        let at = (Vec2::new((cell % scaled.width) as f32, (cell / scaled.width) as f32) + 0.5) * step;
+        [at.x, at.y, color.x, color.y, color.z]
+    };
+    scaled.colors.par_iter().enumerate().map(sample).collect()
 }
 
 /// By how much nearer each cell is to what is certainly outside than to what is certainly inside, as a cost; nothing where

@@ -1,8 +1,9 @@
 //! What a person says about where an object is, and what follows for each cell.
 
-use glam::{DVec2, UVec2, Vec3};
+use glam::{DVec2, UVec2};
 use rayon::prelude::*;
 
+use super::grid::Grid;
 use super::mixture::Mixture;
 use super::scaled::Scaled;
 use super::stroke::for_each_near;
@@ -13,16 +14,23 @@ use crate::picture::{Mask, PicturePoint, PixelRect};
 const MARGIN: f64 = 0.5;
 const LEAST_MARGIN: f64 = 24.0;
 
+/// How much more a cell may cost than strokes do and still look like them, natural logarithm of a likelihood ratio.
+const LIKE: f32 = 2.0;
+
 /// What costs more on the outer side than this share of what is certainly there is at first taken for the object.
 const USUAL: f64 = 0.9;
 
 /// Seed of the mixture that tells what is strange.
 const SEED: u64 = 3;
 
+/// Parts of the mixtures of what is certainly outside, and of strokes on one side.
+const OUTER_PARTS: usize = 10;
+const STROKE_PARTS: usize = 4;
+
 /// What a person says about where an object is.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ObjectHints<'a> {
-    /// Two opposite corners of a box outside which nothing of the object is.
+    /// Two opposite corners of a box outside which nothing of the object is, unless a stroke on it reaches beyond.
     pub corners: Option<[PicturePoint; 2]>,
     /// Strokes on the object and beside it; later ones win.
     pub strokes: &'a [Stroke],
@@ -38,7 +46,16 @@ impl ObjectHints<'_> {
         let [a, b] = self.corners?.map(|corner| corner.0);
         let limit = size.as_dvec2();
         let [low, high] = [a.min(b), a.max(b)].map(|corner| corner.clamp(DVec2::ZERO, limit));
-        (a.is_finite() && b.is_finite() && (high - low).min_element() >= 1.0).then_some([low, high])
+        if !a.is_finite() || !b.is_finite() || (high - low).min_element() < 1.0 {
+            return None;
+        }
+        // Who draws on the object beyond the box has drawn the box too small.
+        let strokes = self.strokes.iter().filter(|stroke| stroke.side == Side::Inside);
+        let points = strokes.flat_map(|stroke| stroke.points.iter().map(|point| (point.0, stroke.reach())));
+        let reached = points
+            .filter(|(point, _)| point.is_finite())
+            .fold([low, high], |[low, high], (at, reach)| [low.min(at - reach), high.max(at + reach)]);
+        Some(reached.map(|corner| corner.clamp(DVec2::ZERO, limit)))
     }
 
     /// The block of the picture to look at.
@@ -88,9 +105,15 @@ impl ObjectHints<'_> {
         Ok(whole)
     }
 
-    /// What is certain of each cell.
-    pub(super) fn known(&self, size: UVec2, scaled: &Scaled) -> Vec<Option<bool>> {
+    /// What places are told in shares of, pixels: the box, or all that is looked at.
+    pub(super) fn extent(&self, size: UVec2, rect: PixelRect) -> DVec2 {
+        self.box_in(size).map_or(rect.size().as_dvec2(), |[low, high]| high - low)
+    }
+
+    /// What is certain of each cell, and whether a stroke says so.
+    pub(super) fn known(&self, size: UVec2, scaled: &Scaled) -> (Vec<Option<bool>>, Vec<bool>) {
         let mut known = vec![None; scaled.colors.len()];
+        let mut is_stroked = vec![false; known.len()];
         if let Some([low, high]) = self.box_in(size) {
             for (cell, known) in known.iter_mut().enumerate() {
                 let center = scaled.pixel(cell).as_dvec2() + 0.5;
@@ -103,19 +126,16 @@ impl ObjectHints<'_> {
             for_each_near(size, &stroke.points, stroke.reach(), |x, y, _| {
                 if let Some(cell) = scaled.cell(x, y) {
                     known[cell] = Some(stroke.side == Side::Inside);
+                    is_stroked[cell] = true;
                 }
             });
         }
-        known
+        (known, is_stroked)
     }
 
     /// First guesses for each cell, the likeliest first; `None` for cells of which nothing is guessed.
-    pub(super) fn first_labels(
-        &self,
-        size: UVec2,
-        scaled: &Scaled,
-        known: &[Option<bool>],
-    ) -> Vec<Vec<Option<bool>>> {
+    pub(super) fn first_labels(&self, size: UVec2, grid: &Grid) -> Vec<Vec<Option<bool>>> {
+        let Grid { scaled, known, .. } = grid;
         let with = |guess: &dyn Fn(usize) -> Option<bool>| {
             known.iter().enumerate().map(|(cell, known)| known.or_else(|| guess(cell))).collect()
         };
@@ -124,7 +144,7 @@ impl ObjectHints<'_> {
             return vec![with(&|cell| Some(is_in(scaled.pixel(cell))))];
         }
         if self.box_in(size).is_some() {
-            let strange = strange(&scaled.colors, known).map(|strange| with(&|cell| Some(strange[cell])));
+            let strange = strange(grid).map(|strange| with(&|cell| Some(strange[cell])));
             return strange.into_iter().chain([with(&|_| Some(true))]).collect();
         }
         // Strokes on both sides speak for themselves; without one beside the object, all the rest is beside it.
@@ -133,13 +153,46 @@ impl ObjectHints<'_> {
     }
 }
 
-/// Which cells do not look like what is certainly outside; `None` when nothing is.
-fn strange(colors: &[Vec3], known: &[Option<bool>]) -> Option<Vec<bool>> {
-    let outer = Mixture::clustered(colors, SEED, |cell| known[cell] == Some(false))?;
-    let costs: Vec<f32> = colors.par_iter().map(|color| outer.cheapest(*color).1).collect();
-    let certain = known.iter().zip(&costs).filter(|(known, _)| **known == Some(false));
-    let mut certain: Vec<f32> = certain.map(|(_, cost)| *cost).collect();
-    certain.sort_unstable_by(f32::total_cmp);
-    let limit = certain[((certain.len() - 1) as f64 * USUAL) as usize];
-    Some(costs.iter().map(|cost| *cost > limit).collect())
+/// Which cells are likely inside: those that look like strokes on the object, and those that look neither like strokes
+/// beside it nor like what is certainly outside; `None` when nothing is certainly outside.
+fn strange(grid: &Grid) -> Option<Vec<bool>> {
+    let Grid { samples, known, is_stroked, .. } = grid;
+    let costs_of = |mixture: &Mixture| -> Vec<f32> {
+        samples.par_iter().map(|sample| mixture.cheapest(sample).1).collect()
+    };
+    let outer = Mixture::clustered(samples, OUTER_PARTS, SEED, |cell| {
+        f32::from(u8::from(known[cell] == Some(false)))
+    })?;
+    let costs = costs_of(&outer);
+    let limit = quantile(&costs, USUAL, |cell| known[cell] == Some(false))?;
+    // What strokes look like, wherever else it may be, and how unlike it the strokes themselves are at most.
+    let stroked = |side: bool| {
+        let is_member = |cell: usize| is_stroked[cell] && known[cell] == Some(side);
+        let mixture =
+            Mixture::clustered(samples, STROKE_PARTS, SEED, |cell| f32::from(u8::from(is_member(cell))))?;
+        let costs = costs_of(&mixture);
+        Some((quantile(&costs, USUAL, is_member)? + LIKE, costs))
+    };
+    let [beside, on] = [stroked(false), stroked(true)];
+    let cost = |side: &Option<(f32, Vec<f32>)>, cell: usize| {
+        side.as_ref().map_or(f32::INFINITY, |(_, costs)| costs[cell])
+    };
+    let is_inside = |cell: usize| {
+        let [beside_cost, on_cost] = [&beside, &on].map(|side| cost(side, cell));
+        if on_cost < costs[cell].min(beside_cost) {
+            return true;
+        }
+        let is_beside =
+            beside.as_ref().is_some_and(|(limit, _)| beside_cost < *limit && beside_cost < on_cost);
+        costs[cell] > limit && !is_beside
+    };
+    Some((0..costs.len()).map(is_inside).collect())
+}
+
+/// The cost that a share of the members stays below; `None` without a member.
+fn quantile(costs: &[f32], share: f64, is_member: impl Fn(usize) -> bool) -> Option<f32> {
+    let mut members: Vec<f32> =
+        (0..costs.len()).filter(|cell| is_member(*cell)).map(|cell| costs[cell]).collect();
+    members.sort_unstable_by(f32::total_cmp);
+    members.get((members.len().saturating_sub(1) as f64 * share) as usize).copied()
 }
