@@ -30,7 +30,7 @@ pub use canvas::{Canvas, Handle, Tool};
 pub use lamp::{Lamp, Need, StepState, step_state};
 pub use out::{BrushStroke, Out, Request, SuggestWhat};
 pub use screen::studio_ui;
-pub use session::{EditorPlugin, Session};
+pub use session::{EditorPlugin, Pace, Session};
 pub use studio::{Brush, Layout, Step, Studio};
 pub use text::Language;
 pub use theme::apply_theme;

@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Duration;
 
 use bevy::app::TaskPoolOptions;
 use bevy::asset::AssetPlugin;
 use bevy::prelude::*;
 use bevy::window::{ExitCondition, PresentMode, WindowCloseRequested, WindowPlugin};
+use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiPlugin, PrimaryEguiContext};
-use bevy_picture_tour::editor::{EditorPlugin, Session};
+use bevy_picture_tour::editor::{EditorPlugin, Pace, Session};
 use bevy_picture_tour::plugin::PictureTourPlugin;
 
 use crate::failure::Failure;
@@ -58,12 +60,24 @@ pub(crate) fn run(file: Option<PathBuf>) -> Result<ExitCode, Failure> {
         .add_systems(Startup, |mut commands: Commands| {
             commands.spawn((Camera2d, PrimaryEguiContext));
         })
-        .add_systems(Update, leave)
+        .add_systems(Update, (leave, keep_pace))
         .run();
     Ok(match exit {
         AppExit::Success => ExitCode::SUCCESS,
         AppExit::Error(_) => ExitCode::from(2),
     })
+}
+
+/// Draws no more often than something changes; whatever the user does is drawn at once.
+fn keep_pace(session: Res<Session>, mut settings: ResMut<WinitSettings>) {
+    let mode = match session.pace() {
+        Pace::Smooth => UpdateMode::Continuous,
+        Pace::Watching => UpdateMode::reactive(Duration::from_millis(50)),
+        Pace::Resting => UpdateMode::reactive(Duration::from_secs(2)),
+    };
+    if settings.focused_mode != mode {
+        *settings = WinitSettings { focused_mode: mode, unfocused_mode: mode };
+    }
 }
 
 /// Threads enough that the draft is checked while the machine looks for an outline and the tour is refined, also on a

@@ -85,6 +85,12 @@ pub(super) struct Checking {
 }
 
 impl Session {
+    /// Whether the draft is being checked, or what is shown is older than it.
+    pub(super) fn is_checking(&self) -> bool {
+        let Some(desk) = &self.desk else { return false };
+        self.checking.running.is_some() || self.checking.shown != Some(desk.history().revision())
+    }
+
     /// Keeps the check up to date; gives its planes when it is new, and all of it once nobody has changed it for a moment.
     pub(super) fn check(&mut self, now: f64) -> Option<News> {
         let desk = self.desk.as_ref()?;

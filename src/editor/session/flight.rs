@@ -157,6 +157,11 @@ impl Flight<'_, '_> {
         }
     }
 
+    /// Whether the tour is being drawn.
+    pub(super) fn is_drawn(&self) -> bool {
+        self.drawn.frames_left > 0
+    }
+
     /// Lets the camera listen or not.
     pub(super) fn listen(&mut self, listens: bool) {
         for (_, mut camera, _) in &mut self.cameras {

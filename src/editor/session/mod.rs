@@ -50,6 +50,18 @@ impl Plugin for EditorPlugin {
     }
 }
 
+/// How often the studio must be drawn when nobody touches it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pace {
+    /// As often as the screen shows: the tour moves.
+    #[default]
+    Smooth,
+    /// Some times a second: work goes on whose progress is shown.
+    Watching,
+    /// Now and then: nothing changes but the age of what is saved.
+    Resting,
+}
+
 /// What is on the desk, and what is known of it.
 #[derive(Resource)]
 pub struct Session {
@@ -79,6 +91,7 @@ pub struct Session {
     another: bool,
     /// Whether to leave as soon as it is saved.
     leaves: bool,
+    pace: Pace,
     exit: bool,
 }
 
@@ -109,6 +122,7 @@ impl Session {
             first: None,
             another: false,
             leaves: false,
+            pace: Pace::default(),
             exit: false,
         }
     }
@@ -122,6 +136,12 @@ impl Session {
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.exit
+    }
+
+    /// How often the studio must be drawn from now on, while nobody touches it.
+    #[must_use]
+    pub fn pace(&self) -> Pace {
+        self.pace
     }
 
     fn new_id(&mut self) -> u64 {
@@ -295,7 +315,12 @@ fn show(
     let out = std::mem::take(&mut view.out);
     session.studio = studio;
     let target = textures.tour_of(out.wanted_tour_size, &mut images, &mut contexts);
-    flight.draw_while(target.is_some() || out.pointer_over_tour || !out.requests.is_empty());
+    flight.draw_while(target.is_some() || !out.requests.is_empty());
+    session.pace = match (flight.is_drawn(), tasks.is_empty() && !session.is_checking()) {
+        (true, _) => Pace::Smooth,
+        (false, false) => Pace::Watching,
+        (false, true) => Pace::Resting,
+    };
     if let Some(image) = target {
         flight.draw_into(image);
     }

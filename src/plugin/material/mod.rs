@@ -55,9 +55,6 @@ pub(super) struct TourUniform {
     ripples: Vec4,
 }
 
-/// Coverage up to this is dropped in a depth pass.
-const SOLID: f32 = 0.5;
-
 impl TourUniform {
     /// The uniform of component `index` with its texture map and the map's texels per picture pixel; the water has none.
     pub(super) fn new(scene: &TourScene, tint: &Tint, index: usize, map: Option<(&Layer, f32)>) -> Self {
@@ -72,7 +69,7 @@ impl TourUniform {
             picture_from_z: Vec4::ZERO,
             eye: Vec3::ZERO.extend(index as f32),
             layer,
-            flags: Vec4::new(f32::from(u8::from(infinite)), -1.0, scale, 0.0),
+            flags: Vec4::new(f32::from(u8::from(infinite)), 0.0, scale, 0.0),
             water: Vec3::from(tint.own_color()).extend(tint.strength),
             ripples: Vec4::new(tint.slope, 0.0, 0.0, 0.0),
         };
@@ -86,12 +83,6 @@ impl TourUniform {
             [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.as_vec3().extend(0.0));
         self.eye = camera.pose.position.as_vec3().extend(self.eye.w);
         self.flags.w = camera.intrinsics.focal_px as f32;
-        self
-    }
-
-    /// The same for the pass that writes depth only.
-    pub(super) fn depth_only(mut self) -> Self {
-        self.flags.y = SOLID;
         self
     }
 }
@@ -121,7 +112,7 @@ pub(super) struct TourMaterial {
 impl TourMaterial {
     /// The same part in the pass that writes depth only.
     pub(super) fn depth_only(&self) -> Self {
-        Self { tour: self.tour.depth_only(), depth_only: true, ..self.clone() }
+        Self { depth_only: true, ..self.clone() }
     }
 }
 
@@ -184,6 +175,7 @@ impl Material for TourMaterial {
             let moves = pass.moves;
             let defs = [
                 (pass.water, "TOUR_WATER"),
+                (pass.depth_only, "TOUR_DEPTH_ONLY"),
                 (moves.sways, "TOUR_SWAYS"),
                 (moves.returns, "TOUR_RETURNS"),
                 (moves.drifts, "TOUR_DRIFTS"),

@@ -22,6 +22,9 @@ fn vertex(vertex: Vertex) -> TourVertex {
     return place(vertex, tour, records);
 }
 
+// Coverage up to this is dropped in a depth pass.
+const SOLID: f32 = 0.5;
+
 #ifndef TOUR_WATER
 // The texture map at a picture point.
 fn texel(at: vec2<f32>, level: f32) -> vec4<f32> {
@@ -34,12 +37,13 @@ fn texel(at: vec2<f32>, level: f32) -> vec4<f32> {
 @fragment
 fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
 #ifdef TOUR_WATER
-    if tour.flags.y >= 0.0 {
-        // The depth pass: water is opaque, its color does not matter.
-        return vec4(1.0);
-    }
+#ifdef TOUR_DEPTH_ONLY
+    // Water is opaque, its color does not matter.
+    return vec4(1.0);
+#else
     let ray = fragment_ray(records, in.row, in.position.xy);
     return finish(vec4(mirrored(tour, records, map, map_sampler, waves, in.row, ray), 1.0));
+#endif
 #else
     let ray = fragment_ray(records, in.row, in.position.xy);
     let found = component(records, i32(tour.eye.w));
@@ -64,9 +68,11 @@ fn fragment(in: TourVertex) -> @location(0) vec4<f32> {
     color = cross_faded(color, texel(see(tour, mirrored.xyz).xy, level), mirrored.w);
 #endif
 #endif
-    if color.a <= tour.flags.y {
+#ifdef TOUR_DEPTH_ONLY
+    if color.a <= SOLID {
         discard;
     }
+#endif
     return finish(color);
 #endif
 }

@@ -18,11 +18,6 @@ struct TourVertex {
 fn place(vertex: Vertex, tour: TourUniform, records: texture_2d<f32>) -> TourVertex {
     var out: TourVertex;
     out.row = view_row(records);
-    if tour.flags.x > 0.5 {
-        // Infinity fills the view, behind everything (reverse z).
-        out.position = vec4(vertex.position.xy, 0.0, 1.0);
-        return out;
-    }
     var local = vertex.position;
 #ifndef TOUR_WATER
     let index = i32(tour.eye.w);
@@ -33,6 +28,8 @@ fn place(vertex: Vertex, tour: TourUniform, records: texture_2d<f32>) -> TourVer
 #endif
     let world_from_local = mesh_functions::get_world_from_local(vertex.instance_index);
     let world = mesh_functions::mesh_position_local_to_world(world_from_local, vec4(local, 1.0));
-    out.position = position_world_to_clip(world.xyz);
+    // Infinity fills the view, behind everything (reverse z). No branch: drivers that make a shader anew for each value of
+    // a uniform that branches (lavapipe does, and keeps them all) would do so here.
+    out.position = select(position_world_to_clip(world.xyz), vec4(vertex.position.xy, 0.0, 1.0), tour.flags.x > 0.5);
     return out;
 }

@@ -34,9 +34,6 @@ fn fresnel(grazing: f32) -> f32 {
 // A texel seen in the water, up from which `was` goes to the picture's camera, for another grazing angle (its sine).
 // Twin of `Tint::at_angle`.
 fn at_angle(tour: TourUniform, texel: vec4<f32>, was: vec3<f32>, grazing: f32) -> vec4<f32> {
-    if tour.water.w <= 0.0 {
-        return texel;
-    }
     let change = fresnel(grazing) / fresnel(was.y / length(was));
     let ratio = clamp(pow(change, tour.water.w), 0.5, 2.0);
     return vec4(max(tour.water.rgb + ratio * (texel.rgb - tour.water.rgb), vec3(0.0)), texel.a);
