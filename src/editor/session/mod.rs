@@ -16,7 +16,7 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
-use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
+use bevy_egui::{EguiContexts, EguiInput, EguiPreUpdateSet, EguiPrimaryContextPass};
 use egui_file_dialog::FileDialog;
 
 use self::check::{Checked, Checking, News};
@@ -45,6 +45,10 @@ impl Plugin for EditorPlugin {
         app.add_systems(
             Update,
             (take_dropped, work).chain().before(PictureTourSystems::Input).run_if(resource_exists::<Session>),
+        );
+        app.add_systems(
+            PreUpdate,
+            rest.after(EguiPreUpdateSet::ProcessInput).before(EguiPreUpdateSet::BeginPass),
         );
         app.add_systems(EguiPrimaryContextPass, show.run_if(resource_exists::<Session>));
     }
@@ -236,6 +240,17 @@ impl Session {
             // What flies is done elsewhere; the rest needs a desk.
             _ => {}
         }
+    }
+}
+
+/// Lets egui rest: bevy_egui tells it in every frame which modifier keys are held, and egui takes whatever it is told for a
+/// reason to draw again.
+fn rest(mut inputs: Query<&mut EguiInput>, mut held: Local<egui::Modifiers>) {
+    for mut input in &mut inputs {
+        input.events.retain(|event| match event {
+            egui::Event::ModifiersChanged(now) => std::mem::replace(&mut *held, *now) != *now,
+            _ => true,
+        });
     }
 }
 
