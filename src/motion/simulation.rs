@@ -232,7 +232,8 @@ impl Simulation {
     }
 
     /// Lets the weather turn gently to another. Numbers are brought into their ranges; what is no number stays as it was, as
-    /// do seed and period of the wind. The sea becomes higher or lower, but keeps running where it ran.
+    /// do seed and period of the wind. The sea becomes higher or lower, and turns slowly as far as
+    /// the wind does from the tour's own.
     pub fn set_weather(&mut self, weather: &Weather) {
         self.touched |= self.weather.change(self.seconds(), *weather);
     }
@@ -334,7 +335,9 @@ impl Simulation {
     fn raise_sea(&mut self) {
         let seconds = self.seconds();
         let Weather { wind, waves } = self.weather.at(seconds);
+        let direction_deg = self.weather.waves_direction_deg(seconds);
         if let Some(sea) = &mut self.sea {
+            sea.turn(direction_deg - self.tour.wind.direction_deg);
             sea.update(seconds, waves * sea.gain(wind.speed));
         }
     }

@@ -57,6 +57,37 @@ fn a_change_of_wind_makes_nothing_jump() {
 }
 
 #[test]
+fn the_sea_turns_with_the_wind_and_is_back_with_it() {
+    let mut simulation = started(5.0, &[], SEA);
+    let own = simulation.weather_to_come();
+    let turned = Weather { wind: Wind { direction_deg: 130.0, ..own.wind }, ..own };
+    // Where the waves run: for one that runs along c, η_t = −c·∇η.
+    let run = |simulation: &mut Simulation| {
+        let before = simulation.sea().unwrap().tiles().clone();
+        simulation.step();
+        let tiles = before.iter().zip(simulation.sea().unwrap().tiles());
+        let texels = tiles.flat_map(|(a, b)| a.texels()[..128 * 128].iter().zip(b.texels()));
+        -texels.map(|(a, b)| (b[0] - a[0]) * Vec2::new(a[1] + b[1], a[2] + b[2])).sum::<Vec2>()
+    };
+    for (weather, degrees) in [(turned, 130.0_f32), (own, 40.0)] {
+        simulation.set_weather(&weather);
+        for _ in 0..1500 {
+            simulation.step();
+        }
+        let to = Vec2::new(degrees.to_radians().cos(), -degrees.to_radians().sin());
+        let off = run(&mut simulation).angle_to(to).to_degrees();
+        assert!(off.abs() < 12.0, "{off}° from {degrees}°");
+        let mut jumped = started(5.0, &[], SEA);
+        jumped.set_weather(&weather);
+        jumped.go_to(simulation.seconds());
+        assert_same(&mut simulation, &mut jumped, "after the change");
+    }
+    let mut never = started(5.0, &[], SEA);
+    never.go_to(simulation.seconds());
+    assert_same(&mut simulation, &mut never, "back at the tour's own wind");
+}
+
+#[test]
 fn after_a_year_it_moves_as_smoothly_as_at_the_start() {
     let all = [BOAT, FERRY, ROCK, TREE];
     let year = 3.15e7;
