@@ -6,6 +6,7 @@
 //!
 //! Tour space: meters, x right, y up, −z into the picture; resting water is y = 0, and a point of it is (x, z).
 
+mod jump;
 mod looped;
 mod movers;
 mod near_water;
@@ -17,9 +18,10 @@ mod stand;
 mod tests;
 mod vessel;
 
+pub use jump::{BLOCK_STEPS, MEMORY_STEPS};
 pub use looped::{LONGEST_LOOP, LoopError, SHORTEST_LOOP};
 pub use recordings::{Recordings, RecordingsReader};
-pub use simulation::{MEMORY_STEPS, Simulation};
+pub use simulation::Simulation;
 
 use crate::scene::Placement;
 use crate::wind::CloudCopy;

@@ -1,5 +1,6 @@
 //! Facts about what moves, on a small lake with a boat, a ferry, a rock and a tree.
 
+mod jump;
 mod recorded;
 mod roles;
 mod water;
