@@ -12,6 +12,7 @@ mod movers;
 mod near_water;
 mod recordings;
 mod roles;
+mod shore;
 mod simulation;
 mod stand;
 #[cfg(test)]

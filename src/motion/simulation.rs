@@ -4,8 +4,10 @@ use glam::DVec2;
 
 use super::looped::{self, LoopError};
 use super::movers::Movers;
-use super::near_water::NearWater;
+use super::near_water::{self, NearWater};
+use super::shore::Shore;
 use super::{Moment, Moves, Recordings, STEP_SECONDS};
+use crate::picture::Mask;
 use crate::scene::Surface;
 use crate::scene::TourScene;
 use crate::tour::Drift;
@@ -56,11 +58,20 @@ impl Simulation {
     /// [`TourSource::tour`](crate::assemble::TourSource::tour) is; `recordings` are those that it names. The remarks say what
     /// does not move, and why.
     ///
+    /// `land` says where the picture shows land, as [`AssembledTour::land`](crate::assemble::AssembledTour::land) does:
+    /// ripples end there and come back. Without it there is water everywhere.
+    ///
     /// Clouds move in a tour with a sky: as it says, in any wind, or else with the wind. An open course is sailed to and fro.
     #[must_use]
-    pub fn new(tour: &Tour, scene: &TourScene, recordings: &Recordings) -> (Self, Vec<String>) {
+    pub fn new(
+        tour: &Tour,
+        scene: &TourScene,
+        land: Option<&Mask>,
+        recordings: &Recordings,
+    ) -> (Self, Vec<String>) {
+        let shore = land.map(|land| Shore::new(&scene.camera, land, &near_water::grid(&scene.camera)));
         let (simulation, resting, mut remarks) =
-            Self::start(tour.clone(), scene.clone(), recordings.clone(), None);
+            Self::start(tour.clone(), scene.clone(), shore.unwrap_or_default(), recordings.clone(), None);
         let rests = |(name, reason): (String, String)| format!("\"{name}\" rests: {reason}");
         remarks.extend(resting.into_iter().map(rests));
         (simulation, remarks)
@@ -75,8 +86,9 @@ impl Simulation {
     /// than half its speed, or poses do not start over.
     pub fn looped(&self, seconds: f64) -> Result<Self, LoopError> {
         let tour = looped::with_whole_periods(&self.tour, seconds)?;
+        let shore = self.near.as_ref().map(|near| near.shore().clone()).unwrap_or_default();
         let (mut simulation, resting, _) =
-            Self::start(tour, self.scene.clone(), self.recordings.clone(), Some(seconds));
+            Self::start(tour, self.scene.clone(), shore, self.recordings.clone(), Some(seconds));
         if let Some(sea) = &mut simulation.sea {
             sea.fit_rounds(seconds).map_err(|error| {
                 let (name, reason) = ("sea".to_owned(), error.to_string());
@@ -98,6 +110,7 @@ impl Simulation {
     fn start(
         tour: Tour,
         scene: TourScene,
+        shore: Shore,
         recordings: Recordings,
         loop_seconds: Option<f64>,
     ) -> (Self, Vec<(String, String)>, Vec<String>) {
@@ -134,7 +147,7 @@ impl Simulation {
             },
             movers: Movers::new(&tour.wind),
             sea,
-            near: NearWater::new(&tour, &scene, &mut remarks),
+            near: NearWater::new(&tour, &scene, shore, &mut remarks),
             moment: Moment::still(scene.components.len()),
             tour,
             scene,

@@ -124,7 +124,7 @@ fn a_plant_stands_where_the_picture_shows_it() {
     ] {
         let (tour, scene) = lake(4.0, &[tree], "");
         let (index, _) = wall(&scene, "tree");
-        let (simulation, remarks) = Simulation::new(&tour, &scene, &Recordings::default());
+        let (simulation, remarks) = Simulation::new(&tour, &scene, None, &Recordings::default());
         assert!(remarks.is_empty(), "{remarks:?}");
         let record = simulation.moment().sways[index];
         let stem = record.stem.as_dvec4();
@@ -139,17 +139,17 @@ fn a_plant_stands_where_the_picture_shows_it() {
 fn clouds_follow_the_wind_unless_the_tour_says_how() {
     let (tour, mut scene) = lake(4.0, &[], "");
     assert!(
-        !Simulation::new(&tour, &scene, &Recordings::default()).0.moves(0).drifts,
+        !Simulation::new(&tour, &scene, None, &Recordings::default()).0.moves(0).drifts,
         "what is 120 m away is no sky"
     );
     scene.components[0].surface = Surface::Infinity;
     assert!(
-        !Simulation::new(&tour, &scene, &Recordings::default()).0.moves(0).drifts,
+        !Simulation::new(&tour, &scene, None, &Recordings::default()).0.moves(0).drifts,
         "mountains may be as far"
     );
     scene.components[0].name = "sky".to_owned();
     let at_2_s = |tour: &Tour| {
-        let (mut simulation, _) = Simulation::new(tour, &scene, &Recordings::default());
+        let (mut simulation, _) = Simulation::new(tour, &scene, None, &Recordings::default());
         simulation.go_to(2.0);
         simulation.moment().clouds[0].offset_px
     };
