@@ -87,7 +87,7 @@ pub struct SeaSurface {
 /// What fills the tiles.
 #[derive(Clone, Debug)]
 enum Source {
-    Wind { waves: Waves, synthesis: Synthesis, nominal_speed: f64, steepest_gain: f64, turned: f64 },
+    Wind { waves: Waves, synthesis: Box<Synthesis>, nominal_speed: f64, steepest_gain: f64, turned: f64 },
     Recorded(Replay),
 }
 
@@ -106,7 +106,7 @@ impl SeaSurface {
             tour::Sea::Jonswap(jonswap) => Waves::jonswap(jonswap, wind),
         };
         let tiles = [SeaTile::new(&waves, 0), SeaTile::new(&waves, 1)];
-        let synthesis = Synthesis::new(&waves);
+        let synthesis = Box::new(Synthesis::new(&waves));
         let nominal_speed = fetch::nominal_speed(wind);
         let steepest_gain = (BREAKING / waves.slope_covariance().total()).sqrt();
         let source = Source::Wind { waves, synthesis, nominal_speed, steepest_gain, turned: 0.0 };

@@ -228,7 +228,7 @@ fn wind_scales_heights_and_leaves_phases() {
     }
 }
 
-/// Where the waves run on the whole: for one that runs along c, η_t = −c·∇η.
+/// Where the waves run on the whole: for one that runs along c, `η_t = −c·∇η`.
 pub(super) fn run(sea: &mut SeaSurface) -> Vec2 {
     let step = 0.01;
     sea.update(3.0 - step, 1.0);
