@@ -34,7 +34,7 @@ fn simulation(trees: usize, change: impl FnOnce(&mut TourFile)) -> Simulation {
     }
     change(&mut file);
     let (scene, _) = scene::build(&plan);
-    Simulation::new(&Tour::check(file).unwrap(), &scene, &Recordings::default()).0
+    Simulation::new(&Tour::check(file).unwrap(), &scene, None, &Recordings::default()).0
 }
 
 fn main() {

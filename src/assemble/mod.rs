@@ -5,6 +5,7 @@ mod backdrops;
 mod bands;
 mod bank;
 mod drafted;
+mod land;
 mod measure;
 mod source;
 

@@ -132,6 +132,19 @@ fn what_is_read_back_is_what_was_baked() {
 }
 
 #[test]
+fn a_baked_tour_shows_the_same_land() {
+    let made = made();
+    let land = made.built.land(&made.source.tour).unwrap();
+    assert_eq!(decode(&made.bytes).unwrap().built.land(&made.source.tour), Some(land.clone()));
+    // In the cropped picture: mountains, the shore, water, the boat on it and the boat before the mountains.
+    for ((x, y), is_land) in
+        [((70, 5), true), ((10, 18), true), ((70, 40), false), ((40, 29), false), ((40, 16), true)]
+    {
+        assert_eq!(land.get(x, y) >= 128, is_land, "at {x}, {y}: {}", land.get(x, y));
+    }
+}
+
+#[test]
 fn a_source_of_another_tour_is_not_baked() {
     let made = made();
     // Its crop is gone, so it no longer says of which picture it speaks.

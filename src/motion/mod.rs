@@ -6,20 +6,23 @@
 //!
 //! Tour space: meters, x right, y up, −z into the picture; resting water is y = 0, and a point of it is (x, z).
 
+mod jump;
 mod looped;
 mod movers;
 mod near_water;
 mod recordings;
 mod roles;
+mod shore;
 mod simulation;
 mod stand;
 #[cfg(test)]
 mod tests;
 mod vessel;
 
+pub use jump::{BLOCK_STEPS, MEMORY_STEPS};
 pub use looped::{LONGEST_LOOP, LoopError, SHORTEST_LOOP};
 pub use recordings::{Recordings, RecordingsReader};
-pub use simulation::{MEMORY_STEPS, Simulation};
+pub use simulation::Simulation;
 
 use crate::scene::Placement;
 use crate::wind::CloudCopy;

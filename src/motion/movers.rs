@@ -124,14 +124,14 @@ impl Movers {
         }
     }
 
-    /// Writes down where everybody is.
-    pub(super) fn show(&mut self, seconds: f64, wind: &Wind, moment: &mut Moment) {
+    /// Writes down where everybody is at `seconds`, which is `part` (0 to 1) of the last step.
+    pub(super) fn show(&mut self, seconds: f64, part: f64, wind: &Wind, moment: &mut Moment) {
         let records = self.plants.update(seconds, wind);
         for (record, &component) in records.iter().zip(&self.plant_components) {
             moment.sways[component] = *record;
         }
         for vessel in &self.vessels {
-            let pose = vessel.pose(seconds);
+            let pose = vessel.pose(seconds, part);
             moment.placements[vessel.component] = vessel.placement(&pose);
             moment.mirrored[vessel.component] = pose.mirrored_share as f32;
         }

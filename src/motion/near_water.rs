@@ -1,10 +1,11 @@
 //! The water as it is now, and its near part, where ripples run.
 //!
-//! The grid of the ripples lies fixed before the picture's camera. What stands in the water is a wall in it; ground that
-//! reaches the water is not yet, and waves run out under it. What floats or sails is no wall: it presses on the water.
+//! The grid of the ripples lies fixed before the picture's camera. What stands in the water is a wall in it, and so is the
+//! land around. What floats or sails is no wall: it presses on the water.
 
 use glam::{DVec2, DVec3, Vec3Swizzles};
 
+use super::shore::Shore;
 use crate::camera::PinholeCamera;
 use crate::picture::PicturePoint;
 use crate::scene::TourScene;
@@ -42,12 +43,19 @@ const BREADTH: f64 = 0.35;
 #[derive(Clone, Debug)]
 pub(super) struct NearWater {
     pub(super) ripples: Ripples,
+    /// Whether something stands in the water.
     has_walls: bool,
+    shore: Shore,
 }
 
 impl NearWater {
     /// Still ripples with the tour's walls; remarks name what is none.
-    pub(super) fn new(tour: &Tour, scene: &TourScene, remarks: &mut Vec<String>) -> Option<Self> {
+    pub(super) fn new(
+        tour: &Tour,
+        scene: &TourScene,
+        shore: Shore,
+        remarks: &mut Vec<String>,
+    ) -> Option<Self> {
         if !scene.water || !tour.waves.ripples {
             return None;
         }
@@ -63,8 +71,10 @@ impl NearWater {
         if let Sea::Jonswap(sea) = &tour.waves.sea {
             options.solver = RippleSolver::Dispersive { depth: sea.depth };
         }
+        let has_walls = mask.iter().any(|&water| water < 1.0);
+        shore.cut_from(&mut mask);
         match Ripples::new(grid, options, &mask) {
-            Ok(ripples) => Some(Self { ripples, has_walls: mask.iter().any(|&water| water < 1.0) }),
+            Ok(ripples) => Some(Self { ripples, has_walls, shore }),
             Err(error) => {
                 remarks.push(format!("the water makes no ripples: {error}"));
                 None
@@ -77,10 +87,22 @@ impl NearWater {
         self.has_walls
     }
 
+    /// The land around.
+    pub(super) fn shore(&self) -> &Shore {
+        &self.shore
+    }
+
     /// Throws the waves of the sea back from walls.
+    ///
+    /// The land throws back ripples alone. The sea of a tour is the same all over the water: thrown back by a whole shore it
+    /// would run twice as high, or not at all, as far as the ripples reach and no farther.
     pub(super) fn throw_back(&mut self, sea: &SeaSurface) {
         if self.has_walls && sea.present_gain() > 0.0 {
+            let (grid, shore) = (*self.ripples.grid(), &self.shore);
             self.ripples.throw_back(|xz| {
+                if shore.is_land(&grid, xz) {
+                    return [0.0; 2];
+                }
                 let wave = sea.sample(xz);
                 [wave.height, wave.potential]
             });
@@ -93,7 +115,7 @@ impl NearWater {
 /// cells are 3.4 % as large as the nearest water is away: 0.17 m for eyes at 1.8 m that see the water from 5 m on.
 ///
 /// Its sides run along x and z, its middle lies on the line along which the camera looks.
-fn grid(camera: &PinholeCamera) -> RippleGrid {
+pub(super) fn grid(camera: &PinholeCamera) -> RippleGrid {
     let size = camera.intrinsics.size.as_dvec2();
     let from = DVec2::new(camera.pose.position.x, camera.pose.position.z);
     let view = camera.ray(PicturePoint(0.5 * size)).direction;

@@ -1,11 +1,13 @@
-//! The tour's clock: what one step does, and how to get to any time.
+//! The tour's clock: what one step does.
 
 use glam::DVec2;
 
 use super::looped::{self, LoopError};
 use super::movers::Movers;
-use super::near_water::NearWater;
+use super::near_water::{self, NearWater};
+use super::shore::Shore;
 use super::{Moment, Moves, Recordings, STEP_SECONDS};
+use crate::picture::Mask;
 use crate::scene::Surface;
 use crate::scene::TourScene;
 use crate::tour::Drift;
@@ -20,15 +22,6 @@ use crate::wind::ChangingWeather;
 use crate::wind::Weather;
 use crate::wind::cloud_copies;
 use crate::wind::drift_of_wind;
-
-/// Steps after which water and bodies have forgotten what was: 20 s, four half-lives of ripples.
-pub const MEMORY_STEPS: u64 = 1200;
-
-/// The same for loops, whose ends must meet: twelve half-lives.
-const LOOP_MEMORY_STEPS: u64 = 3600;
-
-/// The last step that is counted; at some ten thousand years, steps are still whole numbers in f64.
-const LAST_STEP: f64 = (1_u64 << 44) as f64;
 
 /// How the clouds drift.
 #[derive(Clone, Copy, Debug)]
@@ -46,15 +39,17 @@ pub struct Simulation {
     pub(super) recordings: Recordings,
     pub(super) loop_seconds: Option<f64>,
     /// The step at which water and bodies rested last.
-    rested_at: u64,
-    steps: u64,
+    pub(super) rested_at: u64,
+    pub(super) steps: u64,
+    /// How much of the last step is still to come in what is shown, 0 to below 1.
+    pub(super) lag: f64,
     /// Whether anything was done to it that [`Simulation::go_to`] forgets.
     pub(super) touched: bool,
-    weather: ChangingWeather,
+    pub(super) weather: ChangingWeather,
     clouds: Clouds,
     pub(super) movers: Movers,
-    sea: Option<SeaSurface>,
-    near: Option<NearWater>,
+    pub(super) sea: Option<SeaSurface>,
+    pub(super) near: Option<NearWater>,
     pub(super) moment: Moment,
 }
 
@@ -63,11 +58,20 @@ impl Simulation {
     /// [`TourSource::tour`](crate::assemble::TourSource::tour) is; `recordings` are those that it names. The remarks say what
     /// does not move, and why.
     ///
+    /// `land` says where the picture shows land, as [`AssembledTour::land`](crate::assemble::AssembledTour::land) does:
+    /// ripples end there and come back. Without it there is water everywhere.
+    ///
     /// Clouds move in a tour with a sky: as it says, in any wind, or else with the wind. An open course is sailed to and fro.
     #[must_use]
-    pub fn new(tour: &Tour, scene: &TourScene, recordings: &Recordings) -> (Self, Vec<String>) {
+    pub fn new(
+        tour: &Tour,
+        scene: &TourScene,
+        land: Option<&Mask>,
+        recordings: &Recordings,
+    ) -> (Self, Vec<String>) {
+        let shore = land.map(|land| Shore::new(&scene.camera, land, &near_water::grid(&scene.camera)));
         let (simulation, resting, mut remarks) =
-            Self::start(tour.clone(), scene.clone(), recordings.clone(), None);
+            Self::start(tour.clone(), scene.clone(), shore.unwrap_or_default(), recordings.clone(), None);
         let rests = |(name, reason): (String, String)| format!("\"{name}\" rests: {reason}");
         remarks.extend(resting.into_iter().map(rests));
         (simulation, remarks)
@@ -82,8 +86,9 @@ impl Simulation {
     /// than half its speed, or poses do not start over.
     pub fn looped(&self, seconds: f64) -> Result<Self, LoopError> {
         let tour = looped::with_whole_periods(&self.tour, seconds)?;
+        let shore = self.near.as_ref().map(|near| near.shore().clone()).unwrap_or_default();
         let (mut simulation, resting, _) =
-            Self::start(tour, self.scene.clone(), self.recordings.clone(), Some(seconds));
+            Self::start(tour, self.scene.clone(), shore, self.recordings.clone(), Some(seconds));
         if let Some(sea) = &mut simulation.sea {
             sea.fit_rounds(seconds).map_err(|error| {
                 let (name, reason) = ("sea".to_owned(), error.to_string());
@@ -105,6 +110,7 @@ impl Simulation {
     fn start(
         tour: Tour,
         scene: TourScene,
+        shore: Shore,
         recordings: Recordings,
         loop_seconds: Option<f64>,
     ) -> (Self, Vec<(String, String)>, Vec<String>) {
@@ -126,6 +132,7 @@ impl Simulation {
             loop_seconds,
             rested_at: 0,
             steps: 0,
+            lag: 0.0,
             touched: false,
             weather: ChangingWeather::steady(tour.wind.into()),
             clouds: match &tour.sky {
@@ -140,7 +147,7 @@ impl Simulation {
             },
             movers: Movers::new(&tour.wind),
             sea,
-            near: NearWater::new(&tour, &scene, &mut remarks),
+            near: NearWater::new(&tour, &scene, shore, &mut remarks),
             moment: Moment::still(scene.components.len()),
             tour,
             scene,
@@ -175,10 +182,10 @@ impl Simulation {
     /// Seconds from the tour's start.
     #[must_use]
     pub fn seconds(&self) -> f64 {
-        self.steps as f64 * STEP_SECONDS
+        (self.steps as f64 - self.lag) * STEP_SECONDS
     }
 
-    /// Steps from the tour's start.
+    /// Steps from the tour's start, the one that a time [gone to](Self::go_to) lies in included.
     #[must_use]
     pub fn steps(&self) -> u64 {
         self.steps
@@ -190,49 +197,9 @@ impl Simulation {
         self.show();
     }
 
-    /// Goes to the step nearest to `seconds` from the tour's start; what is before that, or no number, is the start.
-    ///
-    /// Touches are forgotten, and the weather that was [set](Self::set_weather) last counts as having been so from the start.
-    /// Nothing else of what was before counts, in whatever order times are asked for. Of water and bodies only the last
-    /// 20 s before that time are simulated, so in the first 20 s of a tour this is what as many steps give, to the bit. A
-    /// [looped](Self::looped) tour has gone on for a minute before its start.
-    pub fn go_to(&mut self, seconds: f64) {
-        let (rested_at, last) = self.way_to(seconds);
-        let goes_on =
-            !self.touched && self.rested_at == rested_at && (rested_at..=last).contains(&self.steps);
-        if !goes_on {
-            self.touched = false;
-            self.weather = ChangingWeather::steady(self.weather.target());
-            (self.rested_at, self.steps) = (rested_at, rested_at);
-            if let Some(near) = &mut self.near {
-                near.ripples.still();
-            }
-            self.movers.rest();
-            self.raise_sea();
-        }
-        while self.steps < last {
-            self.advance();
-        }
-        self.show();
-    }
-
-    /// The step at which everything rests so that it is as it should at `seconds`, and the step that this is.
-    fn way_to(&self, seconds: f64) -> (u64, u64) {
-        // The cast makes 0 of what is no number.
-        let step = |seconds: f64| (seconds / STEP_SECONDS).round().clamp(0.0, LAST_STEP) as u64;
-        let (last, rested_at) = match self.loop_seconds {
-            None => (step(seconds), step(seconds).saturating_sub(MEMORY_STEPS)),
-            Some(round) => {
-                let rounds = (LOOP_MEMORY_STEPS as f64 * STEP_SECONDS / round).ceil() * round;
-                let within = if seconds.is_finite() { seconds.rem_euclid(round) } else { 0.0 };
-                (step(rounds + within), step(rounds) - LOOP_MEMORY_STEPS)
-            }
-        };
-        if self.has_memory() { (rested_at, last) } else { (last, last) }
-    }
-
     /// Lets the weather turn gently to another. Numbers are brought into their ranges; what is no number stays as it was, as
-    /// do seed and period of the wind. The sea becomes higher or lower, but keeps running where it ran.
+    /// do seed and period of the wind. The sea becomes higher or lower, and turns slowly as far as
+    /// the wind does from the tour's own.
     pub fn set_weather(&mut self, weather: &Weather) {
         self.touched |= self.weather.change(self.seconds(), *weather);
     }
@@ -314,8 +281,12 @@ impl Simulation {
 
     /// One step of all that has a memory: weather → sea → what walls throw back → bodies → ripples. Touches act between
     /// steps.
-    fn advance(&mut self) {
+    pub(super) fn advance(&mut self) {
         self.steps += 1;
+        self.lag = 0.0;
+        if let Some(near) = &mut self.near {
+            near.ripples.look_back(0.0);
+        }
         self.raise_sea();
         let seconds = self.seconds();
         let sea = self.sea.as_ref();
@@ -331,10 +302,12 @@ impl Simulation {
     }
 
     /// Brings the sea to the present time and weather.
-    fn raise_sea(&mut self) {
+    pub(super) fn raise_sea(&mut self) {
         let seconds = self.seconds();
         let Weather { wind, waves } = self.weather.at(seconds);
+        let direction_deg = self.weather.waves_direction_deg(seconds);
         if let Some(sea) = &mut self.sea {
+            sea.turn(direction_deg - self.tour.wind.direction_deg);
             sea.update(seconds, waves * sea.gain(wind.speed));
         }
     }
@@ -345,7 +318,7 @@ impl Simulation {
         let drift = self.drift(&wind);
         self.moment.seconds = seconds;
         self.moment.clouds = cloud_copies(&drift, wind.period_seconds, seconds);
-        self.movers.show(seconds, &wind, &mut self.moment);
+        self.movers.show(seconds, 1.0 - self.lag, &wind, &mut self.moment);
     }
 
     fn drift(&self, wind: &Wind) -> Drift {
@@ -354,13 +327,5 @@ impl Simulation {
             Clouds::Drifting(drift) => drift,
             Clouds::WithWind => drift_of_wind(wind, self.scene.camera.intrinsics.focal_px),
         }
-    }
-
-    /// Whether water or bodies can be otherwise than at rest before anything is touched.
-    fn has_memory(&self) -> bool {
-        let Weather { wind, waves } = self.weather.target();
-        let waves = self.sea.as_ref().is_some_and(|sea| waves * sea.gain(wind.speed) > 0.0);
-        let is_walled = self.near.as_ref().is_some_and(NearWater::has_walls);
-        self.movers.sail() || waves && (is_walled || self.movers.swim())
     }
 }

@@ -159,13 +159,14 @@ impl Vessel {
         patch.press(&grid, |cell, pressure| ripples.press_cell(cell, pressure));
     }
 
-    /// How far it is from its rest at `seconds`, as its wall shows it.
-    pub(super) fn pose(&self, seconds: f64) -> BodyPose {
+    /// How far it is from its rest at `seconds`, which is `part` (0 to 1) of the last step, as its wall shows it.
+    pub(super) fn pose(&self, seconds: f64, part: f64) -> BodyPose {
+        let on_waves = self.body.pose_within_step(part);
         match &self.way {
             Way::Led(pose) => *pose,
             Way::Recorded(poses) => poses.at(seconds).faced(),
-            Way::Course(course) => course.at(seconds).pose_on_waves(&self.berth, &self.body.pose()),
-            Way::Anchored => self.anchored_at().pose_on_waves(&self.berth, &self.body.pose()),
+            Way::Course(course) => course.at(seconds).pose_on_waves(&self.berth, &on_waves),
+            Way::Anchored => self.anchored_at().pose_on_waves(&self.berth, &on_waves),
         }
     }
 

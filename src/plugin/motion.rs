@@ -62,7 +62,8 @@ pub struct TouchWater {
 impl TourMotion {
     /// The motion of a tour from its start.
     pub(super) fn new(tour: &Tour, built: &AssembledTour) -> Self {
-        let (simulation, remarks) = Simulation::new(tour, &built.scene, &built.recordings);
+        let (simulation, remarks) =
+            Simulation::new(tour, &built.scene, built.land(tour).as_ref(), &built.recordings);
         for remark in remarks {
             info!("{remark}");
         }

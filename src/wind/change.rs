@@ -6,7 +6,10 @@ use crate::tour::Wind;
 /// Time in which two thirds of a change have come, seconds.
 const EASE_SECONDS: f64 = 1.0;
 
-/// Multiples of [`EASE_SECONDS`] after which a change has come wholly.
+/// The same for the direction of the waves, which are slower than the wind that turns them.
+const TURN_SECONDS: f64 = 4.0;
+
+/// Multiples of these after which a change has come wholly.
 const DONE: f64 = 6.0;
 
 /// How many times as high as the wind raises them waves may be asked to be.
@@ -34,6 +37,8 @@ impl From<Wind> for Weather {
 pub struct ChangingWeather {
     before: Weather,
     after: Weather,
+    /// Where waves were turned to before.
+    waves_before_deg: f64,
     since: f64,
 }
 
@@ -41,7 +46,7 @@ impl ChangingWeather {
     /// Weather that has always been as it is.
     #[must_use]
     pub fn steady(weather: Weather) -> Self {
-        Self { before: weather, after: weather, since: 0.0 }
+        Self { before: weather, after: weather, waves_before_deg: weather.wind.direction_deg, since: 0.0 }
     }
 
     /// What the weather is on its way to, or is.
@@ -66,7 +71,8 @@ impl ChangingWeather {
             Weather { wind, waves: number(weather.waves, self.after.waves).clamp(0.0, HIGHEST_WAVES) };
         let changes = weather != self.after && seconds.is_finite();
         if changes {
-            *self = Self { before: self.at(seconds), after: weather, since: seconds };
+            let waves_before_deg = self.waves_direction_deg(seconds);
+            *self = Self { before: self.at(seconds), after: weather, waves_before_deg, since: seconds };
         }
         changes
     }
@@ -79,15 +85,26 @@ impl ChangingWeather {
             return self.after;
         }
         let (before, after) = (self.before.wind, self.after.wind);
-        let back = (before.direction_deg - after.direction_deg + 180.0).rem_euclid(360.0) - 180.0;
         let wind = Wind {
             speed: after.speed + kept * (before.speed - after.speed),
-            direction_deg: after.direction_deg + kept * back,
+            direction_deg: between(before.direction_deg, after.direction_deg, kept),
             gusts: after.gusts + kept * (before.gusts - after.gusts),
             ..after
         };
         Weather { wind, waves: self.after.waves + kept * (self.before.waves - self.after.waves) }
     }
+
+    /// The wind's direction that waves have followed to at a time, degrees. It takes them four times as long.
+    #[must_use]
+    pub fn waves_direction_deg(&self, seconds: f64) -> f64 {
+        let kept = kept((seconds - self.since) / TURN_SECONDS);
+        between(self.waves_before_deg, self.after.wind.direction_deg, kept)
+    }
+}
+
+/// The direction, in degrees, of which `kept` is still the old one, the shorter way round; the new one itself in the end.
+fn between(before: f64, after: f64, kept: f64) -> f64 {
+    if kept > 0.0 { after + kept * ((before - after + 180.0).rem_euclid(360.0) - 180.0) } else { after }
 }
 
 /// Which part of the old weather is left: 1 before the change, then an exponential that ends.

@@ -214,6 +214,25 @@ fn changed_weather_comes_gently_and_wholly() {
     assert!(dragged.at(30.0).wind.speed.is_finite());
 }
 
+#[test]
+fn waves_follow_the_winds_direction_slowly_and_wholly() {
+    let to = |direction_deg: f64| Wind { direction_deg, ..breeze(5.0) }.into();
+    let mut weather = ChangingWeather::steady(to(350.0));
+    assert_eq!(weather.waves_direction_deg(1e9), 350.0);
+    // On their way the wind turns again, and then only gets stronger.
+    weather.change(10.0, to(30.0));
+    weather.change(12.0, to(80.0));
+    weather.change(14.0, Wind { direction_deg: 80.0, ..breeze(9.0) }.into());
+    let mut last = weather.waves_direction_deg(14.0);
+    assert!((5.0..45.0).contains(&wrapped_deg(last)), "{last}° after 2 s towards 30° and 2 s towards 80°");
+    for i in 1..=24 * 60 {
+        let now = weather.waves_direction_deg(14.0 + f64::from(i) / 60.0);
+        assert!((0.0..0.35).contains(&wrapped_deg(now - last)), "from {last}° to {now}° in a step");
+        last = now;
+    }
+    assert_eq!(last, 80.0);
+}
+
 fn wrapped_deg(angle: f64) -> f64 {
     (angle + 180.0).rem_euclid(360.0) - 180.0
 }

@@ -141,7 +141,9 @@ fn what_moves_is_drawn_alike() {
     let mut gpu = HeadlessTour::new(source.clone(), size, Transform::default()).unwrap();
     let solved = gpu.solved().expect("the tour is shown");
     let own = solved.scene.camera;
-    let (mut motion, remarks) = Simulation::new(&source.tour, &solved.scene, &source.recordings);
+    let land = solved.land(&source.tour);
+    let (mut motion, remarks) =
+        Simulation::new(&source.tour, &solved.scene, land.as_ref(), &source.recordings);
     assert!(remarks.is_empty(), "{remarks:?}");
     for (seconds, pose) in [0.0, 1.3, 4.0, 9.7, 19.5].into_iter().zip(a1::poses()) {
         let camera = PinholeCamera { pose, ..own };
@@ -188,7 +190,9 @@ fn recordings_are_drawn_alike() {
     let source = Arc::new(TourSource { recordings, ..(*source).clone() });
     let mut gpu = HeadlessTour::new(source.clone(), source.picture.size(), Transform::default()).unwrap();
     let solved = gpu.solved().expect("the tour is shown");
-    let (mut motion, remarks) = Simulation::new(&source.tour, &solved.scene, &source.recordings);
+    let land = solved.land(&source.tour);
+    let (mut motion, remarks) =
+        Simulation::new(&source.tour, &solved.scene, land.as_ref(), &source.recordings);
     assert!(remarks.is_empty(), "{remarks:?}");
     for (seconds, pose) in [0.0, 0.7].into_iter().zip([solved.scene.camera.pose, a1::poses()[3]]) {
         let camera = PinholeCamera { pose, ..solved.scene.camera };

@@ -41,7 +41,9 @@ impl Renderer {
         let side = if reference { 1 } else { side_of(samples, size)? };
         let built = opened.assemble(stop)?;
         let by_reference = |tour: Arc<AssembledTour>| {
-            let (motion, _) = Simulation::new(opened.asset.tour(), &tour.scene, &tour.recordings);
+            let marked = opened.asset.tour();
+            let land = tour.land(marked);
+            let (motion, _) = Simulation::new(marked, &tour.scene, land.as_ref(), &tour.recordings);
             Ok(Self::Reference { tour, motion: Box::new(motion), samples })
         };
         if reference {

@@ -1,7 +1,9 @@
 //! Facts about what moves, on a small lake with a boat, a ferry, a rock and a tree.
 
+mod jump;
 mod recorded;
 mod roles;
+mod shore;
 mod water;
 mod weather;
 
@@ -69,7 +71,7 @@ fn lake(wind: f64, objects: &[&str], waves: &str) -> (Tour, TourScene) {
 
 fn started(wind: f64, objects: &[&str], waves: &str) -> Simulation {
     let (tour, scene) = lake(wind, objects, waves);
-    let (simulation, remarks) = Simulation::new(&tour, &scene, &Recordings::default());
+    let (simulation, remarks) = Simulation::new(&tour, &scene, None, &Recordings::default());
     assert!(remarks.is_empty(), "{remarks:?}");
     simulation
 }
@@ -205,7 +207,7 @@ fn remarks_say_what_rests_and_why() {
         contact: ((100, 330), (120, 330)), motion: Sway(kind: Reed)),"#;
     let sea = r#"sea: Recorded(first: "0.png", count: 9, frames_per_second: 25, height: 1, area: (9, 9)), ripples: false"#;
     let (tour, scene) = lake(3.0, &[ship, reed], sea);
-    let (mut simulation, remarks) = Simulation::new(&tour, &scene, &Recordings::default());
+    let (mut simulation, remarks) = Simulation::new(&tour, &scene, None, &Recordings::default());
     let expected = [("sea", "0.png"), ("ship", "ship.json"), ("reed", "apart")];
     assert_eq!(remarks.len(), expected.len(), "{remarks:?}");
     for (remark, (name, why)) in remarks.iter().zip(expected) {

@@ -31,7 +31,7 @@ fn file(path: &RelativePath) -> Result<Vec<u8>, String> {
 fn recorded(wind: f64, objects: &[&str], waves: &str) -> Simulation {
     let (tour, scene) = lake(wind, objects, waves);
     let recordings = Recordings::read(&tour, &file).unwrap_or_else(|problems| panic!("{problems}"));
-    let (simulation, remarks) = Simulation::new(&tour, &scene, &recordings);
+    let (simulation, remarks) = Simulation::new(&tour, &scene, None, &recordings);
     assert!(remarks.is_empty(), "{remarks:?}");
     simulation
 }

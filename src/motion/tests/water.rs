@@ -32,7 +32,7 @@ fn a_touch_moves_the_water_near_it_until_it_rests_again() {
 fn a_floating_boat_follows_long_waves() {
     let (tour, scene) = lake(5.0, &[BOAT], "sea: Octaves(max_height: 0.2, wavelength: 20, octaves: 1)");
     let (index, wall) = wall(&scene, "boat");
-    let (mut simulation, _) = Simulation::new(&tour, &scene, &Recordings::default());
+    let (mut simulation, _) = Simulation::new(&tour, &scene, None, &Recordings::default());
     let (mut heights, mut heaves, mut errors, mut turned) = (0.0, 0.0, 0.0, 0.0_f64);
     for step in 0..1200 {
         simulation.step();
@@ -62,7 +62,7 @@ fn a_floating_boat_follows_long_waves() {
 fn a_course_moves_its_wall_and_leaves_a_wake() {
     let (tour, scene) = lake(0.0, &[FERRY], "");
     let (index, _) = wall(&scene, "ferry");
-    let (mut simulation, _) = Simulation::new(&tour, &scene, &Recordings::default());
+    let (mut simulation, _) = Simulation::new(&tour, &scene, None, &Recordings::default());
     assert!(!simulation.is_still());
     let start = simulation.moment().placements[index].unwrap().origin;
     assert!(start.distance(DVec3::new(-5.5, 0.0, -16.0)) < 1e-9, "it starts at {start}");
@@ -88,7 +88,7 @@ fn a_course_moves_its_wall_and_leaves_a_wake() {
 fn a_rock_throws_the_sea_back_and_is_no_water() {
     let (tour, scene) = lake(5.0, &[ROCK], SEA);
     let (_, rock) = wall(&scene, "rock");
-    let (mut walled, _) = Simulation::new(&tour, &scene, &Recordings::default());
+    let (mut walled, _) = Simulation::new(&tour, &scene, None, &Recordings::default());
     walled.go_to(5.0);
     // Its footprint lies behind the contact line.
     let inside = rock.foot + DVec2::new(0.0, -0.3);

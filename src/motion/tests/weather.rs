@@ -57,6 +57,37 @@ fn a_change_of_wind_makes_nothing_jump() {
 }
 
 #[test]
+fn the_sea_turns_with_the_wind_and_is_back_with_it() {
+    let mut simulation = started(5.0, &[], SEA);
+    let own = simulation.weather_to_come();
+    let turned = Weather { wind: Wind { direction_deg: 130.0, ..own.wind }, ..own };
+    // Where the waves run: for one that runs along c, η_t = −c·∇η.
+    let run = |simulation: &mut Simulation| {
+        let before = simulation.sea().unwrap().tiles().clone();
+        simulation.step();
+        let tiles = before.iter().zip(simulation.sea().unwrap().tiles());
+        let texels = tiles.flat_map(|(a, b)| a.texels()[..128 * 128].iter().zip(b.texels()));
+        -texels.map(|(a, b)| (b[0] - a[0]) * Vec2::new(a[1] + b[1], a[2] + b[2])).sum::<Vec2>()
+    };
+    for (weather, degrees) in [(turned, 130.0_f32), (own, 40.0)] {
+        simulation.set_weather(&weather);
+        for _ in 0..1500 {
+            simulation.step();
+        }
+        let to = Vec2::new(degrees.to_radians().cos(), -degrees.to_radians().sin());
+        let off = run(&mut simulation).angle_to(to).to_degrees();
+        assert!(off.abs() < 12.0, "{off}° from {degrees}°");
+        let mut jumped = started(5.0, &[], SEA);
+        jumped.set_weather(&weather);
+        jumped.go_to(simulation.seconds());
+        assert_same(&mut simulation, &mut jumped, "after the change");
+    }
+    let mut never = started(5.0, &[], SEA);
+    never.go_to(simulation.seconds());
+    assert_same(&mut simulation, &mut never, "back at the tour's own wind");
+}
+
+#[test]
 fn after_a_year_it_moves_as_smoothly_as_at_the_start() {
     let all = [BOAT, FERRY, ROCK, TREE];
     let year = 3.15e7;
@@ -93,7 +124,7 @@ fn a_plant_stands_where_the_picture_shows_it() {
     ] {
         let (tour, scene) = lake(4.0, &[tree], "");
         let (index, _) = wall(&scene, "tree");
-        let (simulation, remarks) = Simulation::new(&tour, &scene, &Recordings::default());
+        let (simulation, remarks) = Simulation::new(&tour, &scene, None, &Recordings::default());
         assert!(remarks.is_empty(), "{remarks:?}");
         let record = simulation.moment().sways[index];
         let stem = record.stem.as_dvec4();
@@ -108,17 +139,17 @@ fn a_plant_stands_where_the_picture_shows_it() {
 fn clouds_follow_the_wind_unless_the_tour_says_how() {
     let (tour, mut scene) = lake(4.0, &[], "");
     assert!(
-        !Simulation::new(&tour, &scene, &Recordings::default()).0.moves(0).drifts,
+        !Simulation::new(&tour, &scene, None, &Recordings::default()).0.moves(0).drifts,
         "what is 120 m away is no sky"
     );
     scene.components[0].surface = Surface::Infinity;
     assert!(
-        !Simulation::new(&tour, &scene, &Recordings::default()).0.moves(0).drifts,
+        !Simulation::new(&tour, &scene, None, &Recordings::default()).0.moves(0).drifts,
         "mountains may be as far"
     );
     scene.components[0].name = "sky".to_owned();
     let at_2_s = |tour: &Tour| {
-        let (mut simulation, _) = Simulation::new(tour, &scene, &Recordings::default());
+        let (mut simulation, _) = Simulation::new(tour, &scene, None, &Recordings::default());
         simulation.go_to(2.0);
         simulation.moment().clouds[0].offset_px
     };

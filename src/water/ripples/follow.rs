@@ -24,6 +24,8 @@ impl Ripples {
         };
         self.height = shift(&self.height);
         self.potential = shift(&self.potential);
+        self.before = shift(&self.before);
+        self.look_back(0.0);
         self.grid.origin += self.grid.cell * glam::DVec2::new(f64::from(columns), f64::from(rows));
         Ok(())
     }

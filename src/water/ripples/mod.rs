@@ -43,6 +43,11 @@ pub struct Ripples {
     kept: Vec<f32>,
     height: Vec<f32>,
     potential: Vec<f32>,
+    /// Heights before the last step, and those that are shown when that is neither one nor the other.
+    before: Vec<f32>,
+    between: Vec<f32>,
+    /// How much of the last step is taken back in what is shown, 0 to 1.
+    lag: f32,
     /// Mean height and potential of the water, to be taken off in the next step.
     mean: [f32; 2],
     is_still: bool,
@@ -88,6 +93,9 @@ impl Ripples {
             kept: vec![0.0; cells],
             height: vec![0.0; cells],
             potential: vec![0.0; cells],
+            before: vec![0.0; cells],
+            between: vec![0.0; cells],
+            lag: 0.0,
             mean: [0.0; 2],
             is_still: true,
             texels: vec![[0.0; 4]; cells],
@@ -135,9 +143,11 @@ impl Ripples {
 
     /// One step of [`RippleOptions::step_seconds`].
     pub fn step(&mut self) {
+        self.look_back(0.0);
         if self.is_still {
             return;
         }
+        self.before.copy_from_slice(&self.height);
         match &mut self.solver {
             Solver::Dispersive(solver) => solver.step(&mut self.height, &mut self.potential),
             Solver::WaveEquation(solver) => solver.step(&mut self.height, &mut self.potential),
@@ -165,6 +175,8 @@ impl Ripples {
     pub fn still(&mut self) {
         self.height.fill(0.0);
         self.potential.fill(0.0);
+        self.before.fill(0.0);
+        self.look_back(0.0);
         self.mean = [0.0; 2];
         self.is_still = true;
         self.texels_are_old = true;

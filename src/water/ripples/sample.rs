@@ -20,10 +20,31 @@ pub(super) fn fade(size: usize) -> Vec<f32> {
 }
 
 impl Ripples {
+    /// Shows the water as it was so much of a step before the last one's end, 0 to 1, until the next: for frames that come
+    /// between steps. Heights and slopes are joined by straight lines.
+    pub fn look_back(&mut self, part_of_step: f64) {
+        let lag = if part_of_step > 0.0 { part_of_step.min(1.0) as f32 } else { 0.0 };
+        if lag == self.lag {
+            return;
+        }
+        self.lag = lag;
+        let ends = self.height.iter().zip(&self.before);
+        for (between, (now, before)) in self.between.iter_mut().zip(ends) {
+            *between = now + lag * (before - now);
+        }
+        self.texels_are_old = true;
+    }
+
+    /// The heights that are shown.
+    fn shown(&self) -> &[f32] {
+        if self.lag > 0.0 { &self.between } else { &self.height }
+    }
+
     /// Height of the ripples at (x, z), meters; 0 outside the grid.
     #[must_use]
     pub fn height_at(&self, xz: DVec2) -> f32 {
-        self.interpolate(xz, |cell, shown| shown * self.height[cell])
+        let heights = self.shown();
+        self.interpolate(xz, |cell, shown| shown * heights[cell])
     }
 
     /// ∂height/∂x and ∂height/∂z of the ripples at (x, z); 0 outside the grid.
@@ -54,7 +75,7 @@ impl Ripples {
     }
 
     fn fill_texels(&self, texels: &mut [[f32; 4]]) {
-        let size = self.grid.size;
+        let (size, heights) = (self.grid.size, self.shown());
         if self.is_still {
             for (texel, mask) in texels.iter_mut().zip(&self.mask) {
                 *texel = [0.0, 0.0, 0.0, *mask];
@@ -67,7 +88,7 @@ impl Ripples {
             // The border shows nothing, so that any neighbor will do for it.
             let at = |row: usize| row * size..(row + 1) * size;
             let (above, below) = (row.saturating_sub(1), (row + 1).min(size - 1));
-            let [up, here, down] = [above, row, below].map(|row| &self.height[at(row)]);
+            let [up, here, down] = [above, row, below].map(|row| &heights[at(row)]);
             let [up_mask, mask, down_mask] = [above, row, below].map(|row| &self.mask[at(row)]);
             let fade = &self.fade[..size];
             for i in 1..size - 1 {
@@ -86,11 +107,11 @@ impl Ripples {
 
     /// The slope of a cell: half the difference of its neighbors. A wall is as high as the water before it.
     fn slope(&self, cell: usize) -> Vec2 {
-        let size = self.grid.size;
-        let height = self.height[cell];
+        let (size, heights) = (self.grid.size, self.shown());
+        let height = heights[cell];
         let rise = |next: Option<usize>| {
             next.filter(|next| *next < self.mask.len())
-                .map_or(0.0, |next| self.mask[next] * (self.height[next] - height))
+                .map_or(0.0, |next| self.mask[next] * (heights[next] - height))
         };
         // In the border's cells, which show nothing, the neighbor may be of another row.
         let x = rise(cell.checked_add(1)) - rise(cell.checked_sub(1));

@@ -9,6 +9,7 @@ mod fetch;
 mod recorded;
 mod resample;
 mod spectrum;
+mod spread;
 mod synthesis;
 mod tile;
 mod waves;
@@ -73,8 +74,9 @@ impl AddAssign for WaveSample {
 
 /// The sea at one moment.
 ///
-/// Shape and phases belong to the wind of the tour, and stay; a wind that changes makes the waves higher or lower
-/// ([`gain`](Self::gain)) without moving them. A recorded sea does not follow the wind. A sea begins flat.
+/// Lengths and phases belong to the wind of the tour, and stay; a wind that changes makes the waves higher or lower
+/// ([`gain`](Self::gain)) and [turns](Self::turn) them, without moving one. A recorded sea does not follow the wind. A sea
+/// begins flat.
 #[derive(Clone, Debug)]
 pub struct SeaSurface {
     source: Source,
@@ -85,7 +87,7 @@ pub struct SeaSurface {
 /// What fills the tiles.
 #[derive(Clone, Debug)]
 enum Source {
-    Wind { waves: Waves, synthesis: Synthesis, nominal_speed: f64, steepest_gain: f64 },
+    Wind { waves: Waves, synthesis: Box<Synthesis>, nominal_speed: f64, steepest_gain: f64, turned: f64 },
     Recorded(Replay),
 }
 
@@ -104,10 +106,10 @@ impl SeaSurface {
             tour::Sea::Jonswap(jonswap) => Waves::jonswap(jonswap, wind),
         };
         let tiles = [SeaTile::new(&waves, 0), SeaTile::new(&waves, 1)];
-        let synthesis = Synthesis::new(&waves);
+        let synthesis = Box::new(Synthesis::new(&waves));
         let nominal_speed = fetch::nominal_speed(wind);
         let steepest_gain = (BREAKING / waves.slope_covariance().total()).sqrt();
-        let source = Source::Wind { waves, synthesis, nominal_speed, steepest_gain };
+        let source = Source::Wind { waves, synthesis, nominal_speed, steepest_gain, turned: 0.0 };
         Some(Self { source, tiles, gain: 0.0 })
     }
 
@@ -139,6 +141,25 @@ impl SeaSurface {
         match &self.source {
             Source::Wind { nominal_speed, .. } => self.sound_gain(wind_speed / nominal_speed),
             Source::Recorded(_) => 1.0,
+        }
+    }
+
+    /// Lets the sea run `degrees` to the left (from +x towards −z) of where it runs in the tour's own wind, from the next
+    /// [`update`](Self::update) on. It is a function of the angle alone: each wave keeps its length, its way and its phase
+    /// and is only as high as a sea that runs so makes it; the significant height stays. A recorded sea does not turn; an
+    /// angle that is no number is 0. Costs about an update where the angle is another, and allocates nothing.
+    pub fn turn(&mut self, degrees: f64) {
+        let whole = (degrees + 180.0).rem_euclid(360.0) - 180.0;
+        let degrees = if whole.is_finite() { whole } else { 0.0 };
+        if let Source::Wind { waves, synthesis, turned, .. } = &mut self.source
+            && *turned != degrees
+        {
+            *turned = degrees;
+            waves.turn(degrees);
+            synthesis.take_amplitudes(waves);
+            for (index, tile) in self.tiles.iter_mut().enumerate() {
+                tile.tabulate_lost(waves, index);
+            }
         }
     }
 
@@ -213,3 +234,5 @@ impl SeaSurface {
 mod recorded_tests;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod turning_tests;

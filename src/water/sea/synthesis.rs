@@ -12,7 +12,7 @@ use rustfft::num_complex::{Complex32, Complex64};
 
 use super::super::fft::SquareFft;
 use super::tile::SeaTile;
-use super::waves::Waves;
+use super::waves::{Wave, Waves};
 use super::{FINEST, TEXELS};
 
 /// A wave vector, its opposite, and what runs along either.
@@ -30,11 +30,20 @@ struct Pair {
     potential: f32,
 }
 
+/// Where a wave stands among the pairs of its tile.
+#[derive(Clone, Copy, Debug, Default)]
+struct Slot {
+    pair: usize,
+    is_forward: bool,
+}
+
 /// What it takes to compute the tiles of any moment.
 #[derive(Clone, Debug)]
 pub(super) struct Synthesis {
     /// Those of the large and of the small tile.
     pairs: [Vec<Pair>; 2],
+    /// That of each wave.
+    slots: Vec<Slot>,
     /// e^(−iωt) of every multiple of the loop's frequency.
     turns: Vec<Complex32>,
     transform: SquareFft,
@@ -53,8 +62,11 @@ impl Synthesis {
     pub(super) fn new(waves: &Waves) -> Self {
         let last = waves.waves.iter().map(|wave| wave.harmonic).max().unwrap_or(0);
         let empty = vec![Complex32::ZERO; TEXELS * TEXELS];
-        Self {
-            pairs: [pairs(waves, 0), pairs(waves, 1)],
+        let mut slots = vec![Slot::default(); waves.waves.len()];
+        let pairs = [0, 1].map(|tile| pairs(waves, tile, &mut slots));
+        let mut synthesis = Self {
+            pairs,
+            slots,
             turns: vec![Complex32::ONE; last as usize + 1],
             transform: SquareFft::new(TEXELS, FftDirection::Inverse),
             heights: [empty.clone(), empty.clone()],
@@ -62,6 +74,21 @@ impl Synthesis {
             potentials: empty.clone(),
             displacements: [empty.clone(), empty.clone()],
             room: empty,
+        };
+        synthesis.take_amplitudes(waves);
+        synthesis
+    }
+
+    /// Takes over amplitudes that have changed. Allocates nothing.
+    pub(super) fn take_amplitudes(&mut self, waves: &Waves) {
+        for pair in self.pairs.iter_mut().flatten() {
+            (pair.forward, pair.backward) = (Complex32::ZERO, Complex32::ZERO);
+        }
+        for (wave, slot) in waves.waves.iter().zip(&self.slots) {
+            let pair = &mut self.pairs[wave.tile][slot.pair];
+            let half = Complex64::from_polar(0.5 * wave.amplitude, wave.phase);
+            let half = Complex32::new(half.re as f32, half.im as f32);
+            *(if slot.is_forward { &mut pair.forward } else { &mut pair.backward }) += half;
         }
     }
 
@@ -123,27 +150,33 @@ impl Synthesis {
     }
 }
 
-/// A tile's waves, opposite ones together.
-fn pairs(waves: &Waves, tile: usize) -> Vec<Pair> {
-    let mut pairs = BTreeMap::new();
-    for wave in waves.waves.iter().filter(|wave| wave.tile == tile) {
-        let is_forward = (wave.cycles.y, wave.cycles.x) > (0, 0);
-        let cycles = if is_forward { wave.cycles } else { -wave.cycles };
-        let wave_vector = waves.wave_vector(wave).as_vec2() * if is_forward { 1.0 } else { -1.0 };
-        let pair = pairs.entry((cycles.y, cycles.x)).or_insert_with(|| Pair {
+/// A tile's waves, opposite ones together, still flat; `slots` are told where each wave comes to stand.
+fn pairs(waves: &Waves, tile: usize, slots: &mut [Slot]) -> Vec<Pair> {
+    let forward = |wave: &Wave| (wave.cycles.y, wave.cycles.x) > (0, 0);
+    let mut by_place: BTreeMap<(i32, i32), Vec<usize>> = BTreeMap::new();
+    for (index, wave) in waves.waves.iter().enumerate().filter(|(_, wave)| wave.tile == tile) {
+        let cycles = if forward(wave) { wave.cycles } else { -wave.cycles };
+        by_place.entry((cycles.y, cycles.x)).or_default().push(index);
+    }
+    let mut pairs = Vec::with_capacity(by_place.len());
+    for ((z, x), members) in by_place {
+        for &index in &members {
+            slots[index] = Slot { pair: pairs.len(), is_forward: forward(&waves.waves[index]) };
+        }
+        let first = &waves.waves[members[0]];
+        let cycles = IVec2::new(x, z);
+        let wave_vector = waves.wave_vector(first).as_vec2() * if forward(first) { 1.0 } else { -1.0 };
+        pairs.push(Pair {
             places: [place(cycles), place(-cycles)],
             wave_vector,
             along: wave_vector.normalize_or_zero(),
             forward: Complex32::ZERO,
             backward: Complex32::ZERO,
-            harmonic: wave.harmonic,
-            potential: waves.potential(wave) as f32,
+            harmonic: first.harmonic,
+            potential: waves.potential(first) as f32,
         });
-        let half = Complex64::from_polar(0.5 * wave.amplitude, wave.phase);
-        let half = Complex32::new(half.re as f32, half.im as f32);
-        *(if is_forward { &mut pair.forward } else { &mut pair.backward }) += half;
     }
-    pairs.into_values().collect()
+    pairs
 }
 
 /// Where a wave vector lies in a spectrum. Rows run along z, since the transform transposes.

@@ -6,7 +6,7 @@ use glam::{DVec2, Vec2};
 
 use super::covariance::SlopeCovariance;
 use super::waves::Waves;
-use super::{TEXELS, WaveSample};
+use super::{FINEST, TEXELS, WaveSample};
 
 /// Mip levels of a tile, down to one texel.
 pub const LEVELS: usize = TEXELS.ilog2() as usize + 1;
@@ -27,21 +27,32 @@ pub struct SeaTile {
 impl SeaTile {
     /// The still tile `index` of a sea.
     pub(super) fn new(waves: &Waves, index: usize) -> Self {
-        let mut lost = [SlopeCovariance::default(); LEVELS];
+        let mut tile = Self::flat(DVec2::splat(waves.sizes[index]));
+        tile.tabulate_lost(waves, index);
+        tile
+    }
+
+    /// Takes over how the waves of tile `index` run now: what averaging takes from their slopes.
+    pub(super) fn tabulate_lost(&mut self, waves: &Waves, index: usize) {
+        // What is left of waves that fit so many times along one axis in the mean of two neighbors of a level.
+        let mut pairs = [[1.0; FINEST as usize + 1]; LEVELS];
+        for (level, pairs) in pairs.iter_mut().enumerate().skip(1) {
+            let half = PI / TEXELS as f64 * f64::from(1 << (level - 1));
+            for (cycles, kept) in pairs.iter_mut().enumerate() {
+                *kept = (half * cycles as f64).cos();
+            }
+        }
+        self.lost = Default::default();
         for wave in waves.waves.iter().filter(|wave| wave.tile == index) {
+            let mut whole = SlopeCovariance::default();
+            whole.add_wave(waves.wave_vector(wave), wave.amplitude);
+            let [x, z] = wave.cycles.abs().to_array().map(|cycles| cycles as usize);
             let mut kept = 1.0;
-            for (level, lost) in lost.iter_mut().enumerate() {
-                if level > 0 {
-                    // The mean of two neighbors of the level before.
-                    let half = PI / TEXELS as f64 * f64::from(1 << (level - 1)) * wave.cycles.as_dvec2();
-                    kept *= half.x.cos() * half.y.cos();
-                }
-                let mut whole = SlopeCovariance::default();
-                whole.add_wave(waves.wave_vector(wave), wave.amplitude);
+            for (lost, pairs) in self.lost.iter_mut().zip(&pairs) {
+                kept *= pairs[x] * pairs[z];
                 *lost += whole * (1.0 - kept * kept);
             }
         }
-        Self { lost, ..Self::flat(DVec2::splat(waves.sizes[index])) }
     }
 
     /// Still water of `size` meters along x and z.

@@ -2,8 +2,12 @@
 //!
 //! Wave vectors lie on the lattice of their tile and frequencies are multiples of 2π/T, so that tiles join without a
 //! seam, everything repeats exactly after T, and a tile shows just what the sum of its waves is.
+//!
+//! A sea that turns changes amplitudes alone. Wave vectors, frequencies and phases stay, so that no crest jumps, and far
+//! ones race no more than near ones.
 
 use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
 
 use glam::{DVec2, IVec2};
 
@@ -11,6 +15,7 @@ use super::super::{GRAVITY, TENSION, angular_frequency};
 use super::covariance::SlopeCovariance;
 use super::fetch;
 use super::spectrum::Spectrum;
+use super::spread::{RAY_SPACING, Spread};
 use super::tile::kept_by_mean;
 use super::{FINEST, WaveSample};
 use crate::tour::{Jonswap, Octaves, Wind};
@@ -19,15 +24,18 @@ use crate::wind::Random;
 /// Ratio of the tiles' sizes: the golden ratio's cube, so that the two never repeat together.
 const RATIO: f64 = 4.236_067_977_499_79;
 
-/// Waves of every octave, and how far the outermost run from the wind, degrees.
-const FAN: usize = 5;
-const FAN_HALF_ANGLE: f64 = 50.0;
+/// The rays of every octave, by their number from the tour's own direction: those that it shows, and those that come as it
+/// turns. A circle is no whole number of them; the gap that is left lies opposite.
+const RAYS: [RangeInclusive<i32>; 3] = [-2..=2, 3..=6, -7..=-3];
 
 /// Amplitude of an octave over that of the one before.
 const OCTAVE_GAIN: f64 = 0.55;
 
 /// The shortest waves that roughen the water, meters: below it viscosity wins.
 const SHORTEST: f64 = 0.05;
+
+/// Directions into which the waves shorter than the tiles' are summed.
+const SPOKES: u32 = 72;
 
 /// A wave: amplitude · cos(k·x − ωt + phase).
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +44,10 @@ pub(super) struct Wave {
     pub(super) tile: usize,
     /// How many times it fits into that tile along x and along z.
     pub(super) cycles: IVec2,
+    /// Unit vector (x, z) that it runs along, before that was rounded to the lattice.
+    along: DVec2,
+    /// Square of the amplitude where all energy ran this way, relative.
+    energy: f64,
     /// Meters.
     pub(super) amplitude: f64,
     /// Radians.
@@ -44,12 +56,27 @@ pub(super) struct Wave {
     pub(super) harmonic: u32,
 }
 
+/// Waves too short for the tiles.
+#[derive(Clone, Copy, Debug)]
+struct ShortWaves {
+    /// Rad/m, (x, z).
+    wave_vector: DVec2,
+    /// As a [`Wave`]'s.
+    energy: f64,
+}
+
 /// All waves of a sea that the wind raises.
 #[derive(Clone, Debug)]
 pub struct Waves {
     /// Sides of the two tiles, meters.
     pub(super) sizes: [f64; 2],
     pub(super) waves: Vec<Wave>,
+    short: Vec<ShortWaves>,
+    spread: Spread,
+    /// Where they run in the tour's own wind, degrees.
+    direction_deg: f64,
+    /// Significant height, meters.
+    height: f64,
     /// What waves too short for the tiles add to the slopes.
     pub(super) hidden: SlopeCovariance,
     /// Seconds after which all repeats.
@@ -66,35 +93,38 @@ impl Waves {
         let (height, peak_period) = fetch::height_and_period(speed, options.max_height, given, f64::INFINITY);
         let longest =
             options.wavelength.unwrap_or_else(|| TAU / fetch::wave_number(TAU / peak_period, f64::INFINITY));
-        let direction = options.direction_deg.unwrap_or(wind.direction_deg).to_radians();
+        let direction_deg = options.direction_deg.unwrap_or(wind.direction_deg);
 
         // Three octaves to a tile: 6, 12 and 24 waves across the large one, 5.7, 11.3 and 22.7 across the small one.
         let sizes = [6.0 * longest, 3.0 / RATIO * longest];
         let mut random = Random::new(wind.seed, 4);
-        let mut drawn = Vec::new();
-        let mut hidden = SlopeCovariance::default();
-        for octave in 0..options.octaves {
+        let (mut waves, mut short) = (Vec::new(), Vec::new());
+        let octaves = |rays: RangeInclusive<i32>| {
+            (0..options.octaves).flat_map(move |octave| rays.clone().map(move |ray| (octave, ray)))
+        };
+        for (octave, ray) in RAYS.into_iter().flat_map(octaves) {
             let wave_number = TAU / longest * f64::from(octave).exp2();
-            let amplitude = OCTAVE_GAIN.powf(f64::from(octave));
-            for ray in 0..FAN {
-                let share = 2.0 * ray as f64 / (FAN - 1) as f64 - 1.0;
-                let angle = direction + share * FAN_HALF_ANGLE.to_radians();
-                let wave_vector = wave_number * DVec2::new(angle.cos(), -angle.sin());
-                let phase = random.angle();
-                let tile = usize::from(octave >= 3);
-                let cycles = (wave_vector * sizes[tile] / TAU).round().as_ivec2();
-                if cycles.abs().max_element() > FINEST {
-                    hidden.add_wave(wave_vector, amplitude);
-                    continue;
-                }
-                let frequency = angular_frequency(lattice(sizes[tile], cycles).length(), f64::INFINITY);
-                let harmonic = harmonic(options.speed_factor * frequency, period);
-                // Only water that is to stand still does.
-                let harmonic = if options.speed_factor > 0.0 { harmonic.max(1) } else { 0 };
-                drawn.push(Wave { tile, cycles, amplitude, phase, harmonic });
+            let energy = OCTAVE_GAIN.powf(f64::from(octave)).powi(2);
+            let angle = direction_deg.to_radians() + f64::from(ray) * RAY_SPACING.to_radians();
+            let along = DVec2::new(angle.cos(), -angle.sin());
+            let wave_vector = wave_number * along;
+            let phase = random.angle();
+            let tile = usize::from(octave >= 3);
+            let cycles = (wave_vector * sizes[tile] / TAU).round().as_ivec2();
+            if cycles.abs().max_element() > FINEST {
+                short.push(ShortWaves { wave_vector, energy });
+                continue;
             }
+            let frequency = angular_frequency(lattice(sizes[tile], cycles).length(), f64::INFINITY);
+            let harmonic = harmonic(options.speed_factor * frequency, period);
+            // Only water that is to stand still does.
+            let harmonic = if options.speed_factor > 0.0 { harmonic.max(1) } else { 0 };
+            waves.push(Wave { tile, cycles, along, energy, amplitude: 0.0, phase, harmonic });
         }
-        Self { sizes, waves: drawn, hidden, period }.scaled_to(height)
+        let (spread, hidden) = (Spread::Fan, SlopeCovariance::default());
+        let mut waves = Self { sizes, waves, short, spread, direction_deg, height, hidden, period };
+        waves.turn(0.0);
+        waves
     }
 
     /// A sea with the JONSWAP spectrum in two bands: the small tile begins at the wave number where the large one ends.
@@ -106,9 +136,7 @@ impl Waves {
             options.peak_period_seconds,
             options.depth,
         );
-        let direction = options.direction_deg.unwrap_or(wind.direction_deg).to_radians();
-        let along = DVec2::new(direction.cos(), -direction.sin());
-        let spectrum = Spectrum::new(peak_period, options.depth, options.spreading, along);
+        let spectrum = Spectrum::new(peak_period, options.depth);
         let size = 12.0 * TAU / spectrum.peak_wave_number();
         let sizes = [size, size / RATIO];
         let bands = bands(sizes);
@@ -121,22 +149,52 @@ impl Waves {
                 for x in -FINEST..=FINEST {
                     let cycles = IVec2::new(x, z);
                     let wave_vector = lattice(sizes[tile], cycles);
+                    let k = wave_vector.length();
                     let phase = random.angle();
-                    if (bands[tile][0]..bands[tile][1]).contains(&wave_vector.length()) {
+                    if (bands[tile][0]..bands[tile][1]).contains(&k) {
                         // Phases are drawn and amplitudes are not, so that every seed has the same height.
-                        let amplitude = (2.0 * cell * spectrum.over_wave_vectors(wave_vector)).sqrt();
-                        let frequency = angular_frequency(wave_vector.length(), options.depth);
-                        let harmonic = harmonic(frequency, period).max(1);
-                        waves.push(Wave { tile, cycles, amplitude, phase, harmonic });
+                        let energy = 2.0 * cell * spectrum.over_wave_vectors(k);
+                        let harmonic = harmonic(angular_frequency(k, options.depth), period).max(1);
+                        let along = wave_vector / k;
+                        waves.push(Wave { tile, cycles, along, energy, amplitude: 0.0, phase, harmonic });
                     }
                 }
             }
         }
-        let mut hidden = SlopeCovariance::default();
-        spectrum.integral(bands[1][1], TAU / SHORTEST, |wave_vector, variance| {
-            hidden.add_wave(wave_vector, (2.0 * variance).sqrt());
+        let turn = TAU / f64::from(SPOKES);
+        let energy = 2.0 * turn * spectrum.mean_square_slope(bands[1][1], TAU / SHORTEST);
+        let short = (0..SPOKES).map(|spoke| {
+            let wave_vector = DVec2::from_angle(turn * f64::from(spoke));
+            ShortWaves { wave_vector, energy }
         });
-        Self { sizes, waves, hidden, period }.scaled_to(height)
+        let spread = Spread::Cosine { exponent: options.spreading };
+        let direction_deg = options.direction_deg.unwrap_or(wind.direction_deg);
+        let (short, hidden) = (short.collect(), SlopeCovariance::default());
+        let mut waves = Self { sizes, waves, short, spread, direction_deg, height, hidden, period };
+        waves.turn(0.0);
+        waves
+    }
+
+    /// Spreads the energy around a direction `degrees` to the left of that in the tour's own wind. The significant height
+    /// is the same in all.
+    pub(super) fn turn(&mut self, degrees: f64) {
+        let direction = (self.direction_deg + degrees).to_radians();
+        let ahead = DVec2::new(direction.cos(), -direction.sin());
+        let spread = self.spread;
+        let amplitude = |along: DVec2, energy: f64| (energy * spread.share(along.dot(ahead))).sqrt();
+        for wave in &mut self.waves {
+            wave.amplitude = amplitude(wave.along, wave.energy);
+        }
+        self.hidden = SlopeCovariance::default();
+        for ShortWaves { wave_vector, energy } in &self.short {
+            self.hidden.add_wave(*wave_vector, amplitude(wave_vector.normalize_or_zero(), *energy));
+        }
+        let present = self.significant_height();
+        let factor = if present > 0.0 { self.height / present } else { 0.0 };
+        for wave in &mut self.waves {
+            wave.amplitude *= factor;
+        }
+        self.hidden *= factor * factor;
     }
 
     /// The surface at (x, z) and any time at a gain of 1, by the sum over all waves: a few microseconds for octaves, a
@@ -212,17 +270,6 @@ impl Waves {
     /// Mean square of the height, m².
     fn variance(&self) -> f64 {
         self.waves.iter().map(|wave| 0.5 * wave.amplitude * wave.amplitude).sum()
-    }
-
-    /// The same waves, all as much higher as makes the significant height `height` meters.
-    fn scaled_to(mut self, height: f64) -> Self {
-        let present = self.significant_height();
-        let factor = if present > 0.0 { height / present } else { 0.0 };
-        for wave in &mut self.waves {
-            wave.amplitude *= factor;
-        }
-        self.hidden *= factor * factor;
-        self
     }
 }
 
