@@ -1,5 +1,7 @@
 //! A picture whose mirror image is smeared by ripples: their slope is found, and what was not seen is smeared alike.
 
+use std::sync::Arc;
+
 use bevy_picture_tour::assemble::{TourSource, assemble};
 use bevy_picture_tour::maps::{MapOptions, Maps};
 use bevy_picture_tour::picture::color::{linear_from_srgb3, srgb_from_linear3};
@@ -9,7 +11,7 @@ use glam::UVec2;
 use crate::support::made_scene::{self, DISTANCE, FOCAL_PX, SIZE};
 
 /// The made scene, the wall's mirror image smeared along columns as ripples of this slope do (notes §8.4).
-fn smeared(slope: f64) -> Maps {
+fn smeared(slope: f64) -> Arc<Maps> {
     let still = made_scene::source();
     let water = still.water.as_ref().expect("the made scene has water");
     let camera = made_scene::camera();

@@ -84,7 +84,7 @@ impl Flight<'_, '_> {
         };
         let Some(before) = self.assets.get(handle).map(TourAsset::tour) else { return };
         let new = &source.tour;
-        let clouds = |tour: &Tour| tour.sky.as_ref().and_then(|sky| sky.drift.clone());
+        let clouds = |tour: &Tour| tour.sky.as_ref().and_then(|sky| sky.drift);
         if before.waves != new.waves || clouds(before) != clouds(new) {
             self.planes.move_anew(entity, new);
         }

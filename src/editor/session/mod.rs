@@ -243,7 +243,7 @@ impl Session {
     }
 }
 
-/// Lets egui rest: bevy_egui tells it in every frame which modifier keys are held, and egui takes whatever it is told for a
+/// Lets egui rest: `bevy_egui` tells it in every frame which modifier keys are held, and egui takes whatever it is told for a
 /// reason to draw again.
 fn rest(mut inputs: Query<&mut EguiInput>, mut held: Local<egui::Modifiers>) {
     for mut input in &mut inputs {

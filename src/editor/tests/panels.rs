@@ -133,7 +133,7 @@ fn numbers_that_no_slider_reaches_are_shown_and_stay() {
     };
     let sway = Sway { amplitude: Some(0.0045), damping: Some(0.123_4), ..Sway::of_kind(SwayKind::Reed) };
     let floating = Floating { roll_damping: Some(0.005), ..Floating::of_draft(0.125) };
-    let octaves = Octaves { wavelength: Some(3.141_59), speed_factor: 7.0, ..Octaves::default() };
+    let octaves = Octaves { wavelength: Some(3.234_56), speed_factor: 7.0, ..Octaves::default() };
     let jonswap = Jonswap { depth: 12.345, spreading: 4.44, ..Jonswap::default() };
     for (motion, sea) in [
         (Motion::Sway(sway), Sea::Octaves(octaves)),
@@ -142,7 +142,7 @@ fn numbers_that_no_slider_reaches_are_shown_and_stay() {
     ] {
         let mut tour = pond();
         tour.objects[0].motion = motion;
-        tour.wind.speed = 3.14;
+        tour.wind.speed = 3.23;
         tour.wind.direction_deg = -270.0;
         tour.waves.sea = sea;
         let drift = crate::tour::Drift { speed: 0.123, direction_deg: -190.0 };

@@ -124,9 +124,9 @@ fn a_thinned_line_keeps_its_ends_and_its_order() {
     let way = |f: &dyn Fn(f64) -> DVec2| -> Vec<PicturePoint> {
         (0..=400).map(|k| PicturePoint(f(f64::from(k) / 400.0).round() + 0.5)).collect()
     };
-    let sine = way(&|t| DVec2::new(150.0 * t * t, 60.0 + 40.0 * (6.28 * t).sin()));
+    let sine = way(&|t| DVec2::new(150.0 * t * t, 60.0 + 40.0 * (6.3 * t).sin()));
     let back = sine.iter().rev().copied().collect();
-    let loops = way(&|t| DVec2::new(120.0 * t - 60.0 * (9.42 * t).sin(), 60.0 + 50.0 * (6.28 * t).cos()));
+    let loops = way(&|t| DVec2::new(120.0 * t - 60.0 * (9.5 * t).sin(), 60.0 + 50.0 * (6.3 * t).cos()));
     for line in [sine, back, loops] {
         for tolerance in [1.0, 3.0] {
             let thin = simplified_line(&line, tolerance);
