@@ -267,7 +267,7 @@ fn harden(y: f64, [down, up]: [f64; 2]) -> f64 {
     let reach = if y < 0.0 { down } else { up };
     let (free, soft) = ((1.0 - SOFT) * reach, SOFT * reach);
     let over = (y.abs() - free) / soft.max(1e-12);
-    if over > 0.0 { (free - soft * (1.0 - over).max(1e-3).ln()).min(BEYOND * reach).copysign(y) } else { y }
+    if over > 0.0 { (free - soft * (1.0 - over).max(1e-3).ln()).copysign(y) } else { y }
 }
 
 #[cfg(test)]
