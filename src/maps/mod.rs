@@ -6,7 +6,6 @@
 
 mod beyond;
 mod bodies;
-mod composite;
 mod coverage;
 mod cutout;
 mod distance;
@@ -190,7 +189,7 @@ impl Maps {
             origins.push(origin.unwrap_or_default());
         }
         step(0.9, "laying the layers over each other")?;
-        composite::lift_reflections(scene, picture, &coverage, &zones, &mut reflections);
+        reflection::lift_reflections(scene, picture, &coverage, &zones, &mut reflections);
         let mut textures: Vec<_> = (0..count)
             .map(|index| texture::texture_map(scene, picture, &coverage, &direct[index], index))
             .collect();

@@ -17,7 +17,7 @@ use super::mirror::{mirrored, reflection_of};
 use super::softness::{blur_px, fit_slope, softened};
 use super::tint::{Tint, TintSample};
 use super::zones::Zones;
-use super::{Fill, Grid, Layer, MapOptions, Method, paper};
+use super::{Fill, Grid, Layer, MapOptions, Method, lift, paper};
 use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::picture::color::linear_from_srgb;
@@ -310,4 +310,48 @@ fn unseen_colors(input: &ReflectionInput, texels: &Grid<([f32; 3], Origin)>) -> 
             (color, trust)
         })
         .unzip()
+}
+
+/// Raises the nearest mirror image at every water pixel until the layers over each other show the picture.
+pub(super) fn lift_reflections(
+    scene: &TourScene,
+    picture: &Picture,
+    coverage: &Coverage,
+    zones: &Zones,
+    layers: &mut [Option<Layer>],
+) {
+    let edits = {
+        let layers = &*layers;
+        Grid::from_fn(IVec2::ZERO, picture.size(), |pixel| {
+            if !coverage.water.get(pixel).unwrap_or(false) {
+                return None;
+            }
+            let mut stack = zones.stack_at(scene, pixel);
+            let nearest = stack.pop()?;
+            let behind = composite(layers, &stack, pixel)?;
+            let alpha = layers[nearest].as_ref()?.get(pixel)?[3];
+            let target = picture.pixel(pixel.x as u32, pixel.y as u32);
+            Some((nearest, lift::lifted(target, behind, alpha)))
+        })
+    };
+    for (cell, edit) in edits.cells.iter().enumerate() {
+        if let Some((nearest, texel)) = edit
+            && let Some(layer) = &mut layers[*nearest]
+            && let Some(at) = layer.index(edits.pixel(cell))
+        {
+            layer.cells[at] = *texel;
+        }
+    }
+}
+
+/// What the water shows at a pixel of the first view: reflection layers over each other, linear light.
+pub(super) fn composite(layers: &[Option<Layer>], far_to_near: &[usize], pixel: IVec2) -> Option<[f32; 3]> {
+    let [r, g, b, _] = layers[0].as_ref()?.get(pixel)?;
+    let mut color = [r, g, b].map(linear_from_srgb);
+    for &index in far_to_near {
+        if let Some(texel) = layers[index].as_ref().and_then(|layer| layer.get(pixel)) {
+            color = lift::over(texel, color);
+        }
+    }
+    Some(color)
 }

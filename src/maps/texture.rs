@@ -3,8 +3,8 @@
 use glam::IVec2;
 
 use super::beyond::folded;
-use super::composite::composite;
 use super::coverage::{Coverage, is_above_contact};
+use super::reflection::composite;
 use super::zones::Zones;
 use super::{Grid, Layer, lift};
 use crate::picture::Picture;

@@ -73,7 +73,7 @@ fn keep_pace(session: Res<Session>, mut settings: ResMut<WinitSettings>) {
     let mode = match session.pace() {
         Pace::Smooth => UpdateMode::Continuous,
         Pace::Watching => UpdateMode::reactive(Duration::from_millis(50)),
-        Pace::Resting => UpdateMode::reactive(Duration::from_secs(2)),
+        Pace::Resting => UpdateMode::reactive(Duration::from_secs(4)),
     };
     if settings.focused_mode != mode {
         *settings = WinitSettings { focused_mode: mode, unfocused_mode: mode };
