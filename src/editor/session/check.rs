@@ -78,7 +78,7 @@ pub(super) struct Checking {
     seen: Option<u64>,
     changed_at: f64,
     shown: Option<u64>,
-    /// What is shown looks like.
+    /// What all that is shown looks like; `None` while its planes are where newer marks put them.
     looks: Option<Looks>,
     /// Recordings that were read, and what they are of.
     recorded: Arc<Mutex<Option<(Recorded, Recordings)>>>,
@@ -102,8 +102,11 @@ impl Session {
         let mut news = None;
         if let Some(done) = checking.running.as_mut().and_then(check_ready) {
             checking.running = None;
-            let differs = checking.looks.is_some() && done.looks != checking.looks;
-            news = done.placed.clone().filter(|_| differs).map(News::Placed);
+            if checking.shown.is_some() && done.looks != checking.looks {
+                news = done.placed.clone().map(News::Placed);
+                // Also what is taken back is to be shown anew: its planes are elsewhere now.
+                checking.looks = None;
+            }
             self.checked = done;
         }
         let wanted = (revision, desk.picture().is_some());

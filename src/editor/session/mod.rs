@@ -60,7 +60,7 @@ pub enum Pace {
     /// As often as the screen shows: the tour moves.
     #[default]
     Smooth,
-    /// Some times a second: work goes on whose progress is shown.
+    /// Some times a second: work goes on whose progress is shown, or marks wait for the recovery file.
     Watching,
     /// Now and then: nothing changes but the age of what is saved.
     Resting,
@@ -331,10 +331,13 @@ fn show(
     session.studio = studio;
     let target = textures.tour_of(out.wanted_tour_size, &mut images, &mut contexts);
     flight.draw_while(target.is_some() || !out.requests.is_empty());
-    session.pace = match (flight.is_drawn(), tasks.is_empty() && !session.is_checking()) {
-        (true, _) => Pace::Smooth,
-        (false, false) => Pace::Watching,
-        (false, true) => Pace::Resting,
+    let is_kept = session.desk.as_ref().is_none_or(Desk::is_kept);
+    session.pace = if flight.is_drawn() {
+        Pace::Smooth
+    } else if tasks.is_empty() && !session.is_checking() && is_kept {
+        Pace::Resting
+    } else {
+        Pace::Watching
     };
     if let Some(image) = target {
         flight.draw_into(image);

@@ -112,6 +112,13 @@ impl Desk {
         self.history.is_saved()
     }
 
+    /// Whether a crash would lose nothing: every change stands in the tour's file or in the recovery file.
+    #[must_use]
+    pub fn is_kept(&self) -> bool {
+        let Recovery { path, revision, .. } = &self.files.recovery;
+        self.is_saved() || (path.is_some() && *revision == self.history.revision())
+    }
+
     /// Does an edit; see [`History::apply`].
     ///
     /// # Errors

@@ -124,7 +124,9 @@ fn after_a_crash_marks_and_masks_are_offered() {
     assert!(desk.autosave(10.0, 5.0).unwrap());
     desk.apply(&wind(7.0)).unwrap();
     assert!(!desk.autosave(14.9, 5.0).unwrap(), "too early");
+    assert!(!desk.is_kept(), "a crash would lose the wind");
     assert!(desk.autosave(15.0, 5.0).unwrap());
+    assert!(desk.is_kept());
     assert!(!desk.autosave(30.0, 5.0).unwrap(), "nothing new");
     let before = desk.draft().clone();
     drop(desk); // A crash.
@@ -333,8 +335,11 @@ fn masks_follow_the_picture_that_is_found() {
         Some(SIZE),
         "the numbers still refer to the size they were marked at"
     );
+    let of_desk = |desk: &Desk| desk.picture().unwrap().picture.size();
     desk.undo().unwrap();
-    assert_eq!(desk.draft(), &before);
+    assert_eq!((desk.draft(), of_desk(&desk)), (&before, SIZE), "the picture comes back with its masks");
+    desk.redo().unwrap();
+    assert_eq!(of_desk(&desk), SIZE * 2);
 }
 
 #[cfg(unix)]
