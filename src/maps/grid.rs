@@ -91,7 +91,8 @@ impl<T: Copy + Send + Sync> Grid<T> {
 
 impl Layer {
     /// Linear-light color and straight coverage at a point: Catmull and Rom's cubic, kept within what the four nearest
-    /// texels span, so that nothing rings. The border is prolonged. Twin of `sharp` in `tour.wgsl`.
+    /// texels span, so that nothing rings; texels weigh as much as they cover. The border is prolonged. Twin of `sharpest`
+    /// in `tour.wgsl`.
     #[must_use]
     pub fn sample(&self, point: PicturePoint) -> [f32; 4] {
         let inner = self.size.as_dvec2() - 0.5;
@@ -108,12 +109,13 @@ impl Layer {
         let mut sum = Vec4::ZERO;
         for (y, down) in (-1..).zip(down) {
             for (x, across) in (-1..).zip(across) {
-                sum += across * down * texel(x, y);
+                let texel = texel(x, y);
+                sum += across * down * (texel.w * texel).with_w(texel.w);
             }
         }
         let near = [texel(0, 0), texel(1, 0), texel(0, 1), texel(1, 1)];
         let [low, high] = [Vec4::min, Vec4::max].map(|pick| near.into_iter().fold(near[0], pick));
-        sum.clamp(low, high).to_array()
+        (sum / sum.w.max(1e-4)).with_w(sum.w).clamp(low, high).to_array()
     }
 }
 

@@ -19,6 +19,7 @@ mod mipmaps;
 mod mirror;
 mod paper;
 mod reflection;
+mod seam;
 mod softness;
 mod texture;
 mod tint;
@@ -190,10 +191,13 @@ impl Maps {
         }
         step(0.9, "laying the layers over each other")?;
         reflection::lift_reflections(scene, picture, &coverage, &zones, &mut reflections);
+        seam::prolong_reflections(scene, &mut reflections);
         let mut textures: Vec<_> = (0..count)
             .map(|index| texture::texture_map(scene, picture, &coverage, &direct[index], index))
             .collect();
+        seam::prolong_textures(scene, picture, &coverage, &mut textures);
         texture::lift_textures(scene, picture, &coverage, &zones, &mut textures, &reflections);
+        seam::prolong_ground(scene, &mut textures);
         let components = textures
             .into_iter()
             .zip(reflections)

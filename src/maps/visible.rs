@@ -22,6 +22,9 @@ const FARTHEST: f32 = 64.0;
 /// A pixel is known, not guessed, while what is nearer hides less of it than this.
 const HIDDEN: u32 = 5;
 
+/// Rows above a contact line that an antialiased mask leaves in part to the water.
+const LAST: i32 = 2;
+
 /// Visible coverage of every component inside the picture, 0–255, in the scene's order.
 pub(super) fn visible(scene: &TourScene, masks: &TourMasks) -> Vec<Grid<u8>> {
     let size = scene.camera.intrinsics.size;
@@ -35,10 +38,11 @@ pub(super) fn visible(scene: &TourScene, masks: &TourMasks) -> Vec<Grid<u8>> {
         };
         seen.push(mask.map_or_else(|| Grid::filled(IVec2::ZERO, UVec2::ZERO, 0), boxed));
     }
-    let by = |role: Role| (0..seen.len()).filter(move |&index| scene.components[index].role == role);
+    let count = seen.len();
+    let by = |role: Role| (0..count).filter(move |&index| scene.components[index].role == role);
     let backdrops = std::iter::once(0).chain(by(Role::Band));
     let rest = backdrops.zip(&masks.backdrops).find(|(_, mask)| mask.is_none()).map_or(0, |(index, _)| index);
-    let claiming: Vec<usize> = (0..seen.len()).filter(|&index| index != rest).collect();
+    let claiming: Vec<usize> = (0..count).filter(|&index| index != rest).collect();
     let billboards: Vec<usize> = by(Role::Billboard).collect();
     let nearest_backdrop = by(Role::Band).next_back().unwrap_or(0);
     let ground = scene.ground();
@@ -93,7 +97,30 @@ pub(super) fn visible(scene: &TourScene, masks: &TourMasks) -> Vec<Grid<u8>> {
     seen[nearest_backdrop] = Grid::from_fn(IVec2::ZERO, size, |pixel| {
         (code(caught, pixel) + code(&hanging, pixel)).min(255) as u8
     });
+    if scene.water {
+        let bands: Vec<usize> = by(Role::Band).collect();
+        for index in bands {
+            seen[index] = down_to_the_water(scene, &seen, index);
+        }
+    }
     seen
+}
+
+/// What a band shows, with all of the pixels above its contact line that it shows most of: their water is no farther than
+/// the band, so nothing shines through.
+fn down_to_the_water(scene: &TourScene, seen: &[Grid<u8>], index: usize) -> Grid<u8> {
+    let own = &seen[index];
+    Grid::from_fn(own.origin, own.size, |pixel| {
+        let shown = own.get(pixel).unwrap_or(0);
+        let is_last = || {
+            is_above_contact(scene, index, pixel) && !is_above_contact(scene, index, pixel + LAST * IVec2::Y)
+        };
+        if !(128..255).contains(&shown) || !is_last() {
+            return shown;
+        }
+        let all: u32 = seen.iter().map(|grid| u32::from(grid.get(pixel).unwrap_or(0))).sum();
+        (u32::from(shown) + 255_u32.saturating_sub(all)) as u8
+    })
 }
 
 /// Coverage of every component in the maps' frame, guessed where something nearer hides it.

@@ -10,6 +10,7 @@ use super::Grid;
 use super::beyond::frame;
 use super::coverage::{Coverage, grow, is_mirrored};
 use super::mirror::mirrored;
+use super::seam::prolonged;
 use crate::picture::PicturePoint;
 use crate::scene::Role;
 use crate::scene::Surface;
@@ -62,7 +63,10 @@ pub(super) fn zones(scene: &TourScene, coverage: &Coverage) -> Zones {
             if index == 0 || !scene.water || !is_mirrored(&component.surface) {
                 return None;
             }
-            let alpha = &coverage.alpha[index];
+            let alpha = match component.role {
+                Role::Band => &prolonged(scene, index, &coverage.alpha[index]),
+                _ => &coverage.alpha[index],
+            };
             let (low, high) = mirror_box(scene, &component.surface, alpha)?;
             let zone = Grid::from_fn(low, (high - low).as_uvec2(), |pixel| {
                 let point = PicturePoint::pixel_center(pixel.x.into(), pixel.y.into());

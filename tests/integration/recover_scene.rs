@@ -1,13 +1,16 @@
 //! The made scene is found again from its picture and its marks, and looks right from where nobody painted it.
 
-use bevy_picture_tour::assemble::{AssembledTour, assemble};
-use bevy_picture_tour::camera::{CameraPose, PinholeCamera};
+use std::path::Path;
+
+use bevy_picture_tour::assemble::{AssembledTour, TourSource, assemble};
+use bevy_picture_tour::camera::{CameraPose, Intrinsics, PinholeCamera};
 use bevy_picture_tour::maps::MapOptions;
+use bevy_picture_tour::picture::PicturePoint;
 use bevy_picture_tour::scene::Surface;
 use bevy_picture_tour::solve::Label;
 use bevy_picture_tour::trace::Reference;
 use bevy_picture_tour::trace::compare::Comparison;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::support::made_scene;
 
@@ -77,6 +80,37 @@ fn the_first_view_is_the_picture() {
         found.max_code_difference
     );
 }
+
+#[test]
+fn nothing_shines_through_between_two_pixels() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/lake/lake.tour.ron");
+    let source = TourSource::open(&path).unwrap();
+    let built = assemble(&source, &MapOptions::PREVIEW, &|_, _| true).unwrap();
+    let reference = Reference::new(&built.scene, &built.maps);
+    let own = built.scene.camera;
+    let size = own.intrinsics.size;
+    for shift in [0.25, 0.5, 0.75] {
+        // Row y then shows what lies between the middles of rows y and y + 1.
+        let principal = PicturePoint(own.intrinsics.principal.0 - shift * DVec2::Y);
+        let camera = PinholeCamera { intrinsics: Intrinsics { principal, ..own.intrinsics }, ..own };
+        let frame = reference.render(&camera, 1);
+        let is_off = |x: u32, y: u32| {
+            let shown = frame.pixel(x, y);
+            let near = [source.picture.pixel(x, y), source.picture.pixel(x, y + 1)];
+            (0..3).any(|c| {
+                let [low, high] = [near[0][c].min(near[1][c]), near[0][c].max(near[1][c])];
+                shown[c] < low.saturating_sub(OFF) || shown[c] > high.saturating_add(OFF)
+            })
+        };
+        for y in 0..size.y - 1 {
+            let off = (0..size.x).filter(|&x| is_off(x, y)).count() as f64 / f64::from(size.x);
+            assert!(off < 0.05, "row {y} + {shift}: {:.1} % are neither of the rows", 100.0 * off);
+        }
+    }
+}
+
+/// How far a color may be beyond both that it lies between, codes.
+const OFF: u8 = 6;
 
 #[test]
 fn a_second_viewpoint_is_near_the_truth() {

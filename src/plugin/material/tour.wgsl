@@ -280,7 +280,8 @@ fn sharp(
     return mix(fine, textureSampleLevel(map, filtering, place, max(level, 1.0)), min(level, 1.0));
 }
 
-// The same at its finest level: cubic, and within what the four nearest texels span, so that nothing rings.
+// The same at its finest level: cubic, and within what the four nearest texels span, so that nothing rings. Texels weigh as
+// much as they cover: what the lift made bright to show through hardly anything would shine beside them.
 fn sharpest(
     map: texture_2d<f32>,
     filtering: sampler,
@@ -307,14 +308,14 @@ fn sharpest(
         for (var x = 0; x < 4; x++) {
             let place = clamp(corner + vec2(f32(x - 1), f32(y - 1)), low, high);
             let texel = textureLoad(map, vec2<i32>(place), 0);
-            sum += across[x] * down[y] * texel;
+            sum += across[x] * down[y] * vec4(texel.a * texel.rgb, texel.a);
             if (x == 1 || x == 2) && (y == 1 || y == 2) {
                 least = min(least, texel);
                 most = max(most, texel);
             }
         }
     }
-    return clamp(sum, least, most);
+    return clamp(vec4(sum.rgb / max(sum.a, 1e-4), sum.a), least, most);
 }
 
 // A texel with coverage and the one that takes its place, by a share. Twin of `cross_faded` in `trace/`.
