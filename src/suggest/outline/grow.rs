@@ -2,7 +2,7 @@
 //!
 //! It spreads from cell to neighboring cell while color goes on as it did (a running mean is handed on, so slow gradients are
 //! followed), stays of the stroke's kind, is no rougher than the stroke, and crosses no edge that is strong for the
-//! stroke's own texture.
+//! stroke's own texture. Each piece of the stroke speaks for what grows from it: one stroke may cross several matters.
 
 use std::collections::VecDeque;
 
@@ -86,23 +86,28 @@ pub fn grow(picture: &Picture, stroke: &Stroke, options: GrowOptions) -> Result<
     let size = picture.size();
     let whole = PixelRect { min: UVec2::ZERO, max: size };
     let scaled = Scaled::new(picture, whole, MOST_CELLS);
-    let mut inside = vec![false; scaled.colors.len()];
-    for_each_near(size, &stroke.points, stroke.reach(), |x, y, _| {
-        if let Some(cell) = scaled.cell(x, y) {
-            inside[cell] = true;
-        }
-    });
-    let is_allowed: Vec<bool> = (0..inside.len())
+    let is_allowed: Vec<bool> = (0..scaled.colors.len())
         .map(|cell| options.bound.is_none_or(|bound| bound.holds(scaled.pixel(cell))))
         .collect();
-    inside.iter_mut().zip(&is_allowed).for_each(|(inside, allowed)| *inside &= allowed);
-    let seeds: Vec<usize> = (0..inside.len()).filter(|cell| inside[*cell]).collect();
-    if seeds.is_empty() {
+    let mut inside = vec![false; scaled.colors.len()];
+    let mut pieces: Vec<Vec<usize>> = Vec::new();
+    for piece in stroke.pieces() {
+        let mut cells = Vec::new();
+        for_each_near(size, &piece, stroke.reach(), |x, y, _| {
+            if let Some(cell) = scaled.cell(x, y).filter(|cell| is_allowed[*cell] && !inside[*cell]) {
+                inside[cell] = true;
+                cells.push(cell);
+            }
+        });
+        pieces.push(cells);
+    }
+    pieces.retain(|cells| !cells.is_empty());
+    if pieces.is_empty() {
         return Err(OutlineError::NothingMarked);
     }
     let matter = Matter::of(&scaled);
-    let kind = Kind::of(&matter, &seeds, tolerance);
-    spread(&matter, &kind, &seeds, &is_allowed, &mut inside);
+    let kinds: Vec<Kind> = pieces.par_iter().map(|cells| Kind::of(&matter, cells, tolerance)).collect();
+    spread(&matter, &kinds, &pieces, &is_allowed, &mut inside);
     let most = (HOLE * inside.len() as f64) as usize;
     fill_holes(matter.width, &mut inside, most);
     Ok(upsampled(picture, &scaled, &inside))
@@ -155,7 +160,7 @@ fn box_means(width: usize, height: usize, reach: usize, value: &(dyn Fn(usize) -
     means
 }
 
-/// What the stroke says of the region: bounds for its cells.
+/// What a piece of the stroke says of the region: bounds for its cells.
 #[derive(Debug)]
 struct Kind {
     /// A few of the stroke's colors.
@@ -168,10 +173,10 @@ struct Kind {
 
 impl Kind {
     fn of(matter: &Matter, seeds: &[usize], tolerance: f32) -> Self {
-        // The roughest twentieth may be a speck under the stroke.
+        // Less than half of it may be a speck or an edge that the stroke crosses.
         let usual = |mut values: Vec<f32>| {
-            values.sort_by(f32::total_cmp);
-            values[(values.len() * 19 / 20).min(values.len() - 1)]
+            let middle = values.len() / 2;
+            *values.select_nth_unstable_by(middle, f32::total_cmp).1
         };
         let roughness = usual(seeds.iter().map(|cell| matter.roughness[*cell]).collect()).max(NOISE);
         let steps = seeds.iter().filter(|cell| *cell % matter.width + 1 < matter.width);
@@ -193,11 +198,14 @@ impl Kind {
     }
 }
 
-/// Adds to `inside` what the seeds reach, in rings around them.
-fn spread(matter: &Matter, kind: &Kind, seeds: &[usize], is_allowed: &[bool], inside: &mut [bool]) {
+/// Adds to `inside` what the pieces reach, in rings around them.
+fn spread(matter: &Matter, kinds: &[Kind], pieces: &[Vec<usize>], is_allowed: &[bool], inside: &mut [bool]) {
     let (width, height) = (matter.width, matter.height);
-    let mut front: VecDeque<(usize, Vec3)> = seeds.iter().map(|cell| (*cell, matter.colors[*cell])).collect();
-    while let Some((cell, mean)) = front.pop_front() {
+    let seeds =
+        kinds.iter().zip(pieces).flat_map(|(kind, cells)| cells.iter().map(move |cell| (kind, *cell)));
+    let mut front: VecDeque<(&Kind, usize, Vec3)> =
+        seeds.map(|(kind, cell)| (kind, cell, matter.colors[cell])).collect();
+    while let Some((kind, cell, mean)) = front.pop_front() {
         let (x, y) = (cell % width, cell / width);
         let near = [
             (x > 0).then(|| cell - 1),
@@ -215,7 +223,7 @@ fn spread(matter: &Matter, kind: &Kind, seeds: &[usize], is_allowed: &[bool], in
                 && kind.is_like(color);
             if goes_on {
                 inside[next] = true;
-                front.push_back((next, mean.lerp(color, DRIFT)));
+                front.push_back((kind, next, mean.lerp(color, DRIFT)));
             }
         }
     }

@@ -75,3 +75,20 @@ fn a_bound_is_not_crossed_whichever_end_comes_first() {
         assert_eq!(refused, Err(OutlineError::NothingMarked));
     }
 }
+
+#[test]
+fn a_stroke_across_two_matters_takes_both_and_no_third() {
+    // Three columns, each plain; the stroke crosses the border of the first two.
+    let color = |x: u32| [[40_u8, 60, 110], [150, 60, 50], [80, 140, 60]][(x / 80).min(2) as usize];
+    let pixels = (0..240 * 100).map(|i| color(i % 240));
+    let picture = Picture::new(UVec2::new(240, 100), pixels.collect()).unwrap();
+    let points = [30.0, 130.0].map(|x| PicturePoint::new(x, 50.0)).to_vec();
+    let mask = grow(&picture, &Stroke::inside(points, 5.0), GrowOptions::default()).unwrap();
+    let columns = |range: std::ops::Range<u32>| {
+        let cells = range.flat_map(|x| (0..100).map(move |y| (x, y)));
+        cells.filter(|&(x, y)| mask.get(x, y) > 127).count()
+    };
+    // The edge between them is as rough as the third.
+    assert!(columns(0..160) > 95 * 160, "{} of 16000", columns(0..160));
+    assert!(columns(163..240) < 80, "{} beyond", columns(163..240));
+}

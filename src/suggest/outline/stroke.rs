@@ -6,6 +6,9 @@ use glam::{DVec2, UVec2};
 
 use crate::picture::{PicturePoint, PixelRect};
 
+/// A segment of a stroke is cut into so many pieces at most: its ends may lie anywhere.
+const MOST_PIECES: f64 = 1000.0;
+
 /// Which side of an outline something is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
@@ -42,6 +45,21 @@ impl Stroke {
     /// The radius as it is used.
     pub(super) fn reach(&self) -> f64 {
         if self.radius.is_finite() { self.radius.max(0.5) } else { 0.5 }
+    }
+
+    /// The stroke cut into pieces about as long as it is wide; a click is one.
+    pub(super) fn pieces(&self) -> Vec<Vec<PicturePoint>> {
+        let points: Vec<DVec2> = self.points.iter().map(|point| point.0).filter(|p| p.is_finite()).collect();
+        if let [click] = points[..] {
+            return vec![vec![PicturePoint(click)]];
+        }
+        let cut = |ends: &[DVec2]| {
+            let (a, b) = (ends[0], ends[1]);
+            let count = (a.distance(b) / (2.0 * self.reach())).ceil().clamp(1.0, MOST_PIECES) as usize;
+            let at = move |i: usize| PicturePoint(a.lerp(b, i as f64 / count as f64));
+            (0..count).map(move |i| vec![at(i), at(i + 1)])
+        };
+        points.windows(2).flat_map(cut).collect()
     }
 }
 
