@@ -18,8 +18,8 @@ use super::spectrum::Spectrum;
 use super::spread::{RAY_SPACING, Spread};
 use super::tile::kept_by_mean;
 use super::{FINEST, WaveSample};
+use crate::random::Random;
 use crate::tour::{Jonswap, Octaves, Wind};
-use crate::wind::Random;
 
 /// Ratio of the tiles' sizes: the golden ratio's cube, so that the two never repeat together.
 const RATIO: f64 = 4.236_067_977_499_79;

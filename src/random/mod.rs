@@ -1,4 +1,7 @@
 //! Seeded numbers (splitmix64), the same on every platform.
+//!
+//! They depend on what is asked for, not on who asks first: every purpose has its own stream, so threads cannot disturb
+//! each other's draws.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +10,7 @@ use std::f64::consts::TAU;
 pub(crate) struct Random(u64);
 
 impl Random {
-    /// The stream of one purpose of a seed.
+    /// The stream of one purpose of a seed: a number of its own, or a cell's index.
     pub(crate) fn new(seed: u64, purpose: u64) -> Self {
         let mut stream = Self(seed ^ purpose.wrapping_mul(0xD6E8_FEB8_6659_FD93));
         stream.next();
@@ -21,6 +24,11 @@ impl Random {
         bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         bits ^ (bits >> 31)
+    }
+
+    /// A number from 0 to below `limit`, which is above zero and below 2³².
+    pub(crate) fn below(&mut self, limit: usize) -> usize {
+        (((self.next() >> 32) * limit as u64) >> 32) as usize
     }
 
     /// An angle from 0 to below 2π.
