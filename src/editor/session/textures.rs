@@ -1,6 +1,6 @@
 //! The picture, its masks and the live tour as textures that egui draws.
 
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use bevy::asset::RenderAssetUsages;
 use bevy::prelude::*;
@@ -20,7 +20,8 @@ const LONGEST: u32 = 4096;
 #[derive(Resource, Default)]
 pub(super) struct Textures {
     picture: Option<(Arc<DecodedPicture>, TextureId, Handle<Image>)>,
-    masks: Vec<(String, Arc<Mask>, TextureId, Handle<Image>)>,
+    /// Masks are not held, only recognized: one that is held is copied when it is painted on.
+    masks: Vec<(String, Weak<Mask>, TextureId, Handle<Image>)>,
     tour: Option<(UVec2, TextureId, Handle<Image>)>,
 }
 
@@ -60,7 +61,7 @@ impl Textures {
             let old =
                 self.masks.iter().position(|(other, ..)| other == name).map(|i| self.masks.swap_remove(i));
             masks.push(match old {
-                Some(old) if Arc::ptr_eq(&old.1, mask) => old,
+                Some(old) if std::ptr::eq(old.1.as_ptr(), Arc::as_ptr(mask)) => old,
                 old => {
                     // White; egui blends colors that are multiplied by their coverage.
                     let image = scaled_image(mask.size(), |at| [mask.get(at.x, at.y); 4]);
@@ -73,7 +74,7 @@ impl Textures {
                     };
                     // What stays is another picture of the same name.
                     let _ = images.insert(&handle, image);
-                    (name.to_owned(), Arc::clone(mask), id, handle)
+                    (name.to_owned(), Arc::downgrade(mask), id, handle)
                 }
             });
         }
