@@ -88,7 +88,7 @@ impl Session {
         let scale = self.scale(&picture.picture);
         let (stroke, bound) = (scaled(stroke, scale), self.bound_of(at, scale));
         let named = self.owner_of(at);
-        let title = self.studio.language.text().work.growing;
+        let title = self.studio.language.text().session.growing;
         self.start(title, move |_| {
             let options = GrowOptions { tolerance: 1.0, bound };
             let grown = grow(&picture.picture, &stroke, options);
@@ -182,7 +182,7 @@ impl Session {
         if std::mem::replace(&mut self.tracing.is_coming, true) {
             return;
         }
-        let title = self.studio.language.text().work.tracing;
+        let title = self.studio.language.text().session.tracing;
         self.start(title, move |_| {
             let wire = LiveWire::new(&picture.picture);
             Box::new(move |session: &mut Self| {
