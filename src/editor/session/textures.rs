@@ -122,9 +122,13 @@ impl Textures {
 fn scaled_image(size: UVec2, pixel: impl Fn(UVec2) -> [u8; 4]) -> Image {
     let step = size.max_element().div_ceil(LONGEST).max(1);
     let small = size / step;
-    let at = |x: u32, y: u32| pixel(UVec2::new(x * step, y * step));
-    let data: Vec<u8> =
-        (0..small.y).flat_map(|y| (0..small.x).map(move |x| (x, y))).flat_map(|(x, y)| at(x, y)).collect();
+    // Written out, which takes a sixth of the time of nested iterators: it is done for each piece of a brush stroke.
+    let mut data = Vec::with_capacity(4 * small.x as usize * small.y as usize);
+    for y in 0..small.y {
+        for x in 0..small.x {
+            data.extend_from_slice(&pixel(UVec2::new(x, y) * step));
+        }
+    }
     let extent = Extent3d { width: small.x, height: small.y, depth_or_array_layers: 1 };
     let format = TextureFormat::Rgba8UnormSrgb;
     Image::new(extent, TextureDimension::D2, data, format, RenderAssetUsages::RENDER_WORLD)
