@@ -10,6 +10,8 @@
 //! picture, resting water at y = 0; the picture was taken from (0, h, 0). Rotations are world-from-view,
 //! Ry(yaw)·Rx(pitch)·Rz(roll), in radians; degrees stand in files and on screens only.
 
+mod random;
+
 pub mod picture;
 
 pub mod camera;

@@ -73,7 +73,7 @@ fn modal_ui<const N: usize>(
 /// A message in a bar of its own, above everything else.
 pub(super) fn message_ui(ui: &mut Ui, message: &Message, t: &Text, out: &mut Out) {
     let Message { what, advice, is_error } = message;
-    let color = if *is_error { theme::MISSING } else { theme::ACCENT };
+    let color = if *is_error { theme::BAD } else { theme::ACCENT };
     Frame::new().inner_margin(4.0).show(ui, |ui| {
         ui.horizontal(|ui| {
             if ui.button(t.dialog.dismiss).clicked() {
@@ -92,7 +92,7 @@ pub(super) fn message_ui(ui: &mut Ui, message: &Message, t: &Text, out: &mut Out
 /// What stands where the picture should be when it is not found.
 pub(super) fn picture_lost_ui(ui: &mut Ui, t: &Text, out: &mut Out) {
     field::card(ui, |ui| {
-        ui.colored_label(theme::MISSING, t.dialog.picture_lost);
+        ui.colored_label(theme::BAD, t.dialog.picture_lost);
         if ui.button(t.bar.find_picture).clicked() {
             out.request(Request::FindPicture);
         }

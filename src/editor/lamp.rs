@@ -277,7 +277,7 @@ impl Lamp {
 
     pub(super) fn color(self) -> Color32 {
         match self {
-            Self::Missing => super::theme::MISSING,
+            Self::Missing => super::theme::BAD,
             Self::Rough => super::theme::ROUGH,
             Self::Good => super::theme::GOOD,
         }

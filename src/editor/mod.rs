@@ -23,8 +23,8 @@ mod top_bar;
 mod view;
 mod work;
 
-/// The one line that says where egui comes from.
-pub(crate) use bevy_egui::egui;
+/// The egui that [`studio_ui`] draws with; the one line that says where it comes from.
+pub use bevy_egui::egui;
 
 pub use canvas::{Canvas, Handle, Tool};
 pub use lamp::{Lamp, Need, StepState, step_state};

@@ -32,7 +32,7 @@ pub enum Request {
     Open(PathBuf),
     /// Ask where the tour's picture is now; all marks stay.
     FindPicture,
-    /// Write the tour; ask for a name if it has none.
+    /// Write the tour, a new one beside its picture as `<picture>.tour.ron`.
     Save,
     /// Ask for a name and write the tour there.
     SaveAs,

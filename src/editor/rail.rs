@@ -117,6 +117,6 @@ pub(super) fn step_head_ui(ui: &mut Ui, step: Step, work: &Work<'_>) {
         });
     }
     if let (Step::Pairs | Step::Horizon, Some(error)) = (step, work.solve_error()) {
-        ui.colored_label(theme::MISSING, super::report_words::sentence(&error.to_string()));
+        ui.colored_label(theme::BAD, super::report_words::sentence(&error.to_string()));
     }
 }

@@ -76,7 +76,7 @@ pub(super) fn trust(report: &ParameterReport, t: &Text) -> (&'static str, Color3
         _ if report.from.first() == Some(&"given") => (t.report.given, theme::ACCENT),
         Label::Measured => (t.report.measured, theme::GOOD),
         Label::Weak => (t.report.weak, theme::ROUGH),
-        Label::Assumed => (t.report.assumed, theme::MISSING),
+        Label::Assumed => (t.report.assumed, theme::BAD),
     }
 }
 

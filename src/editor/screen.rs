@@ -33,7 +33,11 @@ pub fn studio_ui(ui: &mut Ui, studio: &mut Studio, view: &mut View<'_>) {
     let t = studio.language.text();
     let view_now: &View<'_> = view;
     let work = view_now.desk.map(|desk| Work::new(view_now, desk, t));
-    let by_key = shortcuts::act(ui, studio, work.is_some(), &mut out);
+    // What must be answered comes before anything else; its keys are the question's own.
+    let by_key = match view_now.question {
+        Some(_) => Vec::new(),
+        None => shortcuts::act(ui, studio, work.is_some(), &mut out),
+    };
 
     let bar = Frame::new().fill(theme::PANEL).inner_margin(Margin::symmetric(10, 5));
     Panel::top("studio bar").frame(bar).show(ui, |ui| {

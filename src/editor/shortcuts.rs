@@ -1,4 +1,5 @@
-//! Keys that work everywhere in the studio. While a text or number is typed, only those of files do, and end the typing.
+//! Keys that work everywhere in the studio. While a text or number is typed, only those of files do, and end the typing;
+//! while a question is asked, none does.
 
 use super::egui::{Key, Memory, Modifiers, Ui};
 use super::{Out, Request, Step, Studio, top_bar};

@@ -18,8 +18,8 @@ pub(super) const ACCENT: Color32 = Color32::from_rgb(0x5f, 0xa8, 0xd8);
 pub(super) const GOOD: Color32 = Color32::from_rgb(0x74, 0xc2, 0x8e);
 /// Weak, rough.
 pub(super) const ROUGH: Color32 = Color32::from_rgb(0xe2, 0xb4, 0x5e);
-/// Assumed, missing, wrong: the color of errors too.
-pub(super) const MISSING: Color32 = Color32::from_rgb(0xdd, 0x7b, 0x6c);
+/// Assumed, missing, wrong, failed.
+pub(super) const BAD: Color32 = Color32::from_rgb(0xdd, 0x7b, 0x6c);
 
 pub(super) const HORIZON: Color32 = Color32::from_rgb(0xf2, 0xd3, 0x6b);
 pub(super) const WATER: Color32 = Color32::from_rgb(0x5c, 0xb8, 0xf0);
@@ -75,7 +75,7 @@ fn visuals() -> Visuals {
     visuals.override_text_color = Some(TEXT);
     visuals.weak_text_color = Some(DIM);
     visuals.warn_fg_color = ROUGH;
-    visuals.error_fg_color = MISSING;
+    visuals.error_fg_color = BAD;
     visuals.hyperlink_color = ACCENT;
     visuals.selection.bg_fill = ACCENT.gamma_multiply(0.45);
     visuals.selection.stroke = Stroke::new(1.0, TEXT);

@@ -61,7 +61,7 @@ pub struct DeskView<'a> {
     pub draft: &'a Draft,
     /// Its steps.
     pub history: &'a History,
-    /// Its file, if it has one.
+    /// Its file; `None` for a new tour until it is saved.
     pub file: Option<&'a Path>,
     /// Whether the tour's picture is not where the tour says.
     pub picture_lost: bool,

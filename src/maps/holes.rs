@@ -9,15 +9,14 @@ use rayon::prelude::*;
 
 use super::beyond::frame;
 use super::coverage::{ALONE, Coverage, is_above_contact};
-use super::distance::distances;
 use super::fill::{box_mean, push_pull};
 use super::inpaint::{Cell, Options, inpaint};
 use super::reflection::{backdrop_from_water, linear, tolerance};
 use super::texture::layer_alpha;
 use super::tint::Tint;
 use super::{Fill, Grid, MapOptions, Method};
-use crate::picture::Picture;
 use crate::picture::color::srgb_from_linear;
+use crate::picture::{Picture, distances};
 use crate::scene::Role;
 use crate::scene::TourScene;
 

@@ -8,7 +8,6 @@ mod beyond;
 mod bodies;
 mod coverage;
 mod cutout;
-mod distance;
 mod fill;
 mod grid;
 mod holes;

@@ -9,7 +9,6 @@ use rayon::prelude::*;
 
 use super::beyond::frame;
 use super::coverage::Coverage;
-use super::distance::distances;
 use super::fill::push_pull;
 use super::holes::patch;
 use super::inpaint::Cell;
@@ -22,6 +21,7 @@ use crate::picture::Picture;
 use crate::picture::PicturePoint;
 use crate::picture::color::linear_from_srgb;
 use crate::picture::color::srgb_from_linear;
+use crate::picture::distances;
 use crate::scene::Surface;
 use crate::scene::TourScene;
 

@@ -3,6 +3,8 @@
 //! A mask has its picture's size and at least one pixel. Outside the picture nothing is known; sampling gives 0 there,
 //! growing and shrinking leave it out.
 
+use std::ops::Range;
+
 use glam::{DVec2, UVec2};
 use image::imageops::{FilterType, resize};
 use image::{GrayImage, Luma};
@@ -70,6 +72,38 @@ impl Mask {
     #[must_use]
     pub fn values(&self) -> &[u8] {
         &self.coverage
+    }
+
+    /// The values of a block of pixels, row by row from its top left; `None` when there is no pixel in it or it reaches
+    /// beyond the mask.
+    #[must_use]
+    pub fn block(&self, block: PixelRect) -> Option<Vec<u8>> {
+        let rows = self.rows_of(block)?;
+        Some(rows.flat_map(|row| &self.coverage[row]).copied().collect())
+    }
+
+    /// Replaces the values of a block of pixels. Nothing changes, and it says no, unless there is one for each of its
+    /// pixels and all of them lie in the mask.
+    pub(crate) fn set_block(&mut self, block: PixelRect, values: &[u8]) -> bool {
+        let Some(rows) = self.rows_of(block) else { return false };
+        let size = block.size();
+        if size.x as usize * size.y as usize != values.len() {
+            return false;
+        }
+        for (row, values) in rows.zip(values.chunks_exact(size.x as usize)) {
+            self.coverage[row].copy_from_slice(values);
+        }
+        true
+    }
+
+    /// Where the rows of a block stand among the values.
+    fn rows_of(&self, block: PixelRect) -> Option<impl Iterator<Item = Range<usize>> + use<>> {
+        let inside = block.min.cmplt(block.max).all() && block.max.cmple(self.size).all();
+        let width = self.size.x as usize;
+        inside.then(|| {
+            (block.min.y as usize..block.max.y as usize)
+                .map(move |y| y * width + block.min.x as usize..y * width + block.max.x as usize)
+        })
     }
 
     /// Coverage of the pixel in column `x`, row `y`, 0–255.

@@ -100,3 +100,22 @@ fn resizing_keeps_the_covered_share() {
         assert!((share - expected).abs() < 0.01 * expected, "{share} instead of {expected} at {size}");
     }
 }
+
+#[test]
+fn a_block_is_read_and_written_where_it_lies() {
+    let mut mask = Mask::new(UVec2::new(4, 3), (0..12).collect()).unwrap();
+    let block = PixelRect { min: UVec2::new(1, 1), max: UVec2::new(3, 3) };
+    assert_eq!(mask.block(block), Some(vec![5, 6, 9, 10]));
+    assert!(mask.set_block(block, &[50, 60, 90, 100]));
+    assert_eq!(mask.values(), [0, 1, 2, 3, 4, 50, 60, 7, 8, 90, 100, 11]);
+
+    let before = mask.clone();
+    let beyond = PixelRect { min: UVec2::new(3, 1), max: UVec2::new(5, 2) };
+    let empty = PixelRect { min: UVec2::new(2, 1), max: UVec2::new(2, 2) };
+    let inside_out = PixelRect { min: UVec2::new(3, 2), max: UVec2::new(1, 1) };
+    for (block, values) in [(beyond, &[1; 2][..]), (empty, &[]), (inside_out, &[1; 2]), (block, &[1; 3])] {
+        assert!(!mask.set_block(block, values), "{block:?} took {} values", values.len());
+    }
+    assert_eq!([beyond, empty, inside_out].map(|block| mask.block(block)), [None, None, None]);
+    assert!(mask == before);
+}

@@ -5,6 +5,7 @@
 
 pub mod color;
 mod decode;
+mod distance;
 mod encode;
 mod error;
 mod format;
@@ -16,6 +17,7 @@ mod raster;
 mod space;
 
 pub use decode::{DecodedPicture, MAX_PIXELS, MAX_SIDE, decode_mask, decode_picture};
+pub(crate) use distance::distances;
 pub(crate) use encode::folder_of;
 pub use encode::{PngPixels, encode_png, save_png};
 pub use error::PictureError;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::part_of_loop;
-use super::random::Random;
+use crate::random::Random;
 
 /// How many harmonics of the loop make the envelope.
 const HARMONICS: usize = 4;

@@ -13,7 +13,6 @@ mod gusts;
 mod oscillator;
 mod plant;
 pub(crate) mod preset;
-mod random;
 mod spectrum;
 mod sway;
 #[cfg(test)]
@@ -26,7 +25,6 @@ pub use clouds::{CloudCopy, cloud_copies, drift_of_wind};
 pub use gusts::Gusts;
 pub use oscillator::{LoopedSignal, Oscillator};
 pub use plant::{Plant, PlantError, Plants, Stand, seed_of_name, strength};
-pub(crate) use random::Random;
 pub use spectrum::velocity_power;
 pub use sway::{SwayMode, SwayRecord};
 

@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::part_of_loop;
-use super::random::Random;
 use super::spectrum::{NOMINAL_SPEED, velocity_power};
+use crate::random::Random;
 
 /// Multiples of the natural frequency above which the answer is left out; 0.1 % of its energy lies there.
 const HIGHEST: f64 = 2.5;

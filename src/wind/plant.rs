@@ -5,10 +5,10 @@ use glam::{DVec2, Vec2, Vec4};
 use super::gusts::Gusts;
 use super::oscillator::{LoopedSignal, Oscillator};
 use super::preset::{ModePreset, preset};
-use super::random::Random;
 use super::spectrum::NOMINAL_SPEED;
 use super::sway::{SwayMode, SwayRecord, mode_motion};
 use super::{heading_of_degrees, sound_speed};
+use crate::random::Random;
 use crate::tour::{Sway, Wind};
 
 /// Wind speed towards which the growth of the motion levels off, m/s.

@@ -105,6 +105,15 @@ fn the_demo_cut_anew_still_shows_its_picture() {
 
     let again = run(folder.path(), &["bands", "lake.tour.ron", "--anew"]);
     assert!(again.status.code() == Some(2) && stderr(&again).contains("--force"), "{}", stderr(&again));
+
+    // The masks that were made go with the tour that named them, and nothing else does.
+    let before = names(folder.path());
+    let forced = run(folder.path(), &["bands", "lake.tour.ron", "--anew", "--force"]);
+    assert_eq!(forced.status.code(), Some(0), "{}", stderr(&forced));
+    let renamed = |name: String| if name == "lake.bands.masks" { format!("{name}_2") } else { name };
+    let after: Vec<String> = before.into_iter().map(renamed).collect();
+    assert_eq!(names(folder.path()), after);
+    assert!(TourSource::open(&path).is_ok());
 }
 
 #[test]

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules of `src/`, lowest first.
-const LAYERS: [&str; 17] = [
-    "picture", "camera", "tour", "solve", "suggest", "depth", "scene", "wind", "water", "motion", "maps",
-    "assemble", "bake", "trace", "plugin", "headless", "editor",
+const LAYERS: [&str; 18] = [
+    "random", "picture", "camera", "tour", "solve", "suggest", "depth", "scene", "wind", "water", "motion",
+    "maps", "assemble", "bake", "trace", "plugin", "headless", "editor",
 ];
 
 /// Every file below `folder` with this ending, in order.

@@ -92,6 +92,8 @@ pub(crate) struct BandsArguments {
     #[arg(long)]
     pub(crate) anew: bool,
     /// Replace a tour file that is already there
+    ///
+    /// Masks that were made for it go too, unless somebody has changed them or another tour names them.
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -109,6 +111,8 @@ pub(crate) struct NewArguments {
     #[arg(long)]
     pub(crate) auto: bool,
     /// Replace a tour file that is already there
+    ///
+    /// Masks that were made for it go too, unless somebody has changed them or another tour names them.
     #[arg(long)]
     pub(crate) force: bool,
 }

@@ -24,8 +24,10 @@ pub(crate) fn write(decoded: &DecodedPicture, file: &RelativePath, out: &Path) -
         });
     bar.finish_and_clear();
     let drafted = drafted.map_err(|error| Failure::CannotRun(error.to_string()))?;
-    beside::write(&drafted.tour, &drafted.masks, &folder, out)?;
-    tell(&drafted, &mut io::stdout().lock())?;
+    let gone = beside::write(&drafted.tour, &drafted.masks, &folder, out)?;
+    let mut stdout = io::stdout().lock();
+    tell(&drafted, &mut stdout)?;
+    beside::tell_gone(&gone, &mut stdout)?;
     Ok(())
 }
 

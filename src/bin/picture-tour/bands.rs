@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &BandsArguments) -> Result<ExitCode, Failure> {
         }
         error => cannot(format!("{}: {error}", path.display())),
     })?;
-    beside::write(&cut.tour, &cut.masks, &masks, &out)?;
+    let gone = beside::write(&cut.tour, &cut.masks, &masks, &out)?;
 
     let mut stdout = io::stdout().lock();
     let standing = cut.bands.iter().filter(|band| band.distance.is_finite()).count();
@@ -62,5 +62,6 @@ pub(crate) fn run(arguments: &BandsArguments) -> Result<ExitCode, Failure> {
     }
     depth::table_of_bands(&depth::told(&cut.bands)).write(&mut stdout)?;
     writeln!(stdout, "wrote {}; comments of the old file are not copied", out.display())?;
+    beside::tell_gone(&gone, &mut stdout)?;
     Ok(ExitCode::SUCCESS)
 }

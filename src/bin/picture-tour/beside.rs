@@ -1,11 +1,13 @@
 //! A tour's file and the new masks beside it, written together or not at all.
 
-use std::path::Path;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use bevy_picture_tour::picture::{Mask, PngPixels, save_png};
 use bevy_picture_tour::tour::{RelativePath, TOUR_ENDING, Tour};
 
 use crate::failure::Failure;
+use crate::leftover;
 
 /// Refuses to replace a file unless that is asked for.
 pub(crate) fn refuse_existing(out: &Path, force: bool) -> Result<(), Failure> {
@@ -32,8 +34,20 @@ pub(crate) fn new_masks_folder(out: &Path) -> Result<RelativePath, Failure> {
     })
 }
 
-/// Writes masks and tour, or neither: the tour comes last, and without it the masks' new folder goes again.
+/// Writes masks and tour, or neither: the tour comes last, and without it the masks' new folder goes again. Gives the
+/// folders of masks that were made for a tour which stood there before, and are gone with it.
 pub(crate) fn write(
+    tour: &Tour,
+    masks: &[(RelativePath, Mask)],
+    masks_folder: &RelativePath,
+    out: &Path,
+) -> Result<Vec<PathBuf>, Failure> {
+    let made_before = leftover::made_for(out, &stem(out)?);
+    write_both(tour, masks, masks_folder, out)?;
+    Ok(leftover::remove(made_before))
+}
+
+fn write_both(
     tour: &Tour,
     masks: &[(RelativePath, Mask)],
     masks_folder: &RelativePath,
@@ -56,12 +70,22 @@ pub(crate) fn write(
             save_png(&path.in_folder(folder(out)), mask.size(), PngPixels::Gray(mask.values()))
                 .map_err(|error| cannot(&error))
         })
+        .and_then(|()| {
+            let names = masks.iter().filter_map(|(path, _)| path.as_str().rsplit('/').next());
+            leftover::list(&new_folder, names).map_err(|error| cannot(&error))
+        })
         .and_then(|()| tour.save(out).map_err(|error| cannot(&error)));
     if written.is_err() {
         // The error that led here is the one to tell.
         let _ = std::fs::remove_dir_all(new_folder);
     }
     written
+}
+
+/// Says which folders of masks are gone.
+pub(crate) fn tell_gone(gone: &[PathBuf], out: &mut impl Write) -> io::Result<()> {
+    gone.iter()
+        .try_for_each(|folder| writeln!(out, "removed {}, which no tour names any more", folder.display()))
 }
 
 /// The folder that a file is in.

@@ -14,6 +14,7 @@ mod edit;
 mod failure;
 mod film;
 mod frames;
+mod leftover;
 mod new;
 mod open;
 mod play;

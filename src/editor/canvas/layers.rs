@@ -128,7 +128,7 @@ pub(super) fn pairs(frame: Frame, step: Step, times: f64, work: &Work<'_>) -> Ve
     for (index, pair) in water.pairs.iter().enumerate() {
         let report = work.solution().and_then(|solution| solution.report.pairs.get(index));
         let color = match report {
-            Some(report) if !report.kept => theme::MISSING,
+            Some(report) if !report.kept => theme::BAD,
             _ => theme::PAIR,
         };
         let ends = [frame.to_screen(pair.point), frame.to_screen(pair.reflection)];

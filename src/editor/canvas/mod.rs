@@ -98,7 +98,7 @@ pub(super) fn canvas_ui(ui: &mut Ui, studio: &mut Studio, work: &Work<'_>, out: 
     }
     let handles = handle::handles(studio, work);
     press(ui, &response, space, frame, studio, work, out, &handles);
-    if has_keys(ui, &response) && !studio.pointer_was_over_tour {
+    if has_keys(ui, &response) && !studio.pointer_was_over_tour && work.view.question.is_none() {
         pointer::keys(ui, studio, work, out);
     }
     ask_for_edges(&response, frame, studio, out);

@@ -93,7 +93,7 @@ fn draw_tool(
     painter.extend(layers::sketch(&sketch, pointer, &traced));
     if let (true, Some(at)) = (canvas.tool.has_width(), pointer) {
         let radius = (studio.brush.radius * frame.eye.zoom) as f32;
-        let color = if studio.brush.inside { theme::GOOD } else { theme::MISSING };
+        let color = if studio.brush.inside { theme::GOOD } else { theme::BAD };
         painter.circle_stroke(at, radius.max(1.0), Stroke::new(1.5, color));
     }
     let at = ui.input(|i| i.pointer.interact_pos());

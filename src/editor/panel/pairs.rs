@@ -54,7 +54,7 @@ fn residual_ui(ui: &mut Ui, report: Option<&PairReport>, work: &Work<'_>) {
             ui.colored_label(theme::DIM, format!("{depth:.0} m"));
         }
     } else {
-        ui.colored_label(theme::MISSING, format!("{pixels} · {}", work.text.pairs.left_out));
+        ui.colored_label(theme::BAD, format!("{pixels} · {}", work.text.pairs.left_out));
     }
 }
 
@@ -69,7 +69,7 @@ fn pair_ui(
 ) {
     let t = work.text;
     if let Some(remark) = report.and_then(|report| report.remark.as_deref()) {
-        ui.add(Label::new(RichText::new(report_words::sentence(remark)).color(theme::MISSING)).wrap());
+        ui.add(Label::new(RichText::new(report_words::sentence(remark)).color(theme::BAD)).wrap());
     }
     point_ui(ui, t.pairs.point, PointAt::Pair(index), work, out);
     point_ui(ui, t.pairs.reflection, PointAt::Reflection(index), work, out);

@@ -84,7 +84,7 @@ fn color(sure: f64) -> Color32 {
     let color = match sure {
         0.75.. => theme::GOOD,
         0.4.. => theme::ROUGH,
-        _ => theme::MISSING,
+        _ => theme::BAD,
     };
     color.gamma_multiply(0.55)
 }

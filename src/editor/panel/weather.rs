@@ -1,11 +1,15 @@
 //! Step 6, second part: the wind over everything, and the waves.
 
+use std::ops::RangeInclusive;
+
 use crate::tour::edit::Edit;
 use crate::tour::{Jonswap, Octaves, Sea, Waves};
+use crate::water::sea::fetch;
 
 use super::super::Out;
 use super::super::egui::Ui;
 use super::super::field::{self, Number};
+use super::super::text::Text;
 use super::super::work::Work;
 
 /// Shows wind and waves.
@@ -101,13 +105,23 @@ fn waves_ui(ui: &mut Ui, work: &Work<'_>, out: &mut Out) {
     }
 }
 
+/// A number that the wind sets unless it is given.
+fn own<'a>(t: &'a Text, name: &'a str, range: RangeInclusive<f64>) -> Number<'a> {
+    Number::new(name, range).hint(t.motion.own_number_hint)
+}
+
+/// The waves' height: mostly a few centimeters.
+fn wave_height(t: &Text) -> Number<'_> {
+    own(t, t.motion.wave_height, 0.0..=10.0).logarithmic().unit(" m").decimals(3)
+}
+
 fn octaves_ui(ui: &mut Ui, octaves: Octaves, work: &Work<'_>) -> Octaves {
     let t = work.text;
     let mut wanted = octaves;
-    let own = |name, range| Number::new(name, range).hint(t.motion.own_number_hint);
+    let (height, longest) = fetch::of_octaves(&octaves, &work.tour.wind);
     let rows: [(&mut Option<f64>, Number<'_>, f64); 3] = [
-        (&mut wanted.max_height, own(t.motion.wave_height, 0.0..=10.0).unit(" m"), 0.1),
-        (&mut wanted.wavelength, own(t.motion.wavelength, 0.1..=300.0).logarithmic().unit(" m"), 4.0),
+        (&mut wanted.max_height, wave_height(t), height),
+        (&mut wanted.wavelength, own(t, t.motion.wavelength, 0.1..=300.0).logarithmic().unit(" m"), longest),
         (
             &mut wanted.direction_deg,
             direction(t.motion.direction, t.motion.direction_hint),
@@ -135,10 +149,10 @@ fn octaves_ui(ui: &mut Ui, octaves: Octaves, work: &Work<'_>) -> Octaves {
 fn jonswap_ui(ui: &mut Ui, jonswap: Jonswap, work: &Work<'_>) -> Jonswap {
     let t = work.text;
     let mut wanted = jonswap;
-    let own = |name, range| Number::new(name, range).hint(t.motion.own_number_hint);
+    let (height, period) = fetch::of_jonswap(&jonswap, &work.tour.wind);
     let rows: [(&mut Option<f64>, Number<'_>, f64); 3] = [
-        (&mut wanted.max_height, own(t.motion.wave_height, 0.0..=10.0).unit(" m"), 0.1),
-        (&mut wanted.peak_period_seconds, own(t.motion.peak_period, 0.3..=20.0).unit(" s"), 2.0),
+        (&mut wanted.max_height, wave_height(t), height),
+        (&mut wanted.peak_period_seconds, own(t, t.motion.peak_period, 0.3..=20.0).unit(" s"), period),
         (
             &mut wanted.direction_deg,
             direction(t.motion.direction, t.motion.direction_hint),

@@ -1,7 +1,7 @@
 //! What the draft amounts to now: its problems, its solution, and the tour that is shown of it.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use glam::DVec2;
 
@@ -35,7 +35,8 @@ pub(super) struct Checked {
 struct Looks {
     /// Without anything that moves.
     tour: TourFile,
-    masks: Vec<Arc<Mask>>,
+    /// Only to tell whether they are the same: a mask that is held is copied when it is painted on.
+    masks: Vec<Weak<Mask>>,
     picture: Arc<DecodedPicture>,
 }
 
@@ -47,7 +48,7 @@ impl Looks {
         if let Some(sky) = &mut tour.sky {
             sky.drift = None;
         }
-        let masks = draft.masks.iter().map(|(_, mask)| Arc::clone(mask)).collect();
+        let masks = draft.masks.iter().map(|(_, mask)| Arc::downgrade(mask)).collect();
         Self { tour, masks, picture: Arc::clone(picture) }
     }
 }
@@ -55,7 +56,7 @@ impl Looks {
 impl PartialEq for Looks {
     fn eq(&self, other: &Self) -> bool {
         let same_masks = self.masks.len() == other.masks.len()
-            && self.masks.iter().zip(&other.masks).all(|(a, b)| Arc::ptr_eq(a, b));
+            && self.masks.iter().zip(&other.masks).all(|(a, b)| Weak::ptr_eq(a, b));
         same_masks && Arc::ptr_eq(&self.picture, &other.picture) && self.tour == other.tour
     }
 }

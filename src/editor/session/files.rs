@@ -46,7 +46,7 @@ impl Session {
         let _ = self.recent.add(path);
         self.recent_files = self.recent.files();
         if let Some(note) = notes.first() {
-            let told = with(self.studio.language.text().work.notes, note);
+            let told = with(self.studio.language.text().session.notes, note);
             self.tell(&told, "");
         }
         for problem in &problems {
@@ -116,7 +116,7 @@ impl Session {
     fn after_save(&mut self, saved: Result<Saved, DeskError>) -> bool {
         let Some(desk) = &self.desk else { return true };
         let name = desk.path().display().to_string();
-        let words = self.studio.language.text().work;
+        let words = self.studio.language.text().session;
         match saved {
             Ok(saved) => {
                 let path = desk.path().to_owned();
@@ -207,7 +207,7 @@ impl Session {
     }
 
     fn ago(&self, then: Option<SystemTime>) -> String {
-        let words = self.studio.language.text().work;
+        let words = self.studio.language.text().session;
         let Some(age) = then.and_then(|then| then.elapsed().ok()) else {
             return words.some_time_ago.to_owned();
         };
@@ -222,7 +222,7 @@ impl Session {
 
     /// Opens a dialog.
     pub(super) fn ask(&mut self, asked: Asked) {
-        let words = self.studio.language.text().work;
+        let words = self.studio.language.text().session;
         let folder = self.desk.as_ref().and_then(|desk| desk.path().parent().map(Path::to_owned));
         let folder = folder.filter(|folder| folder.is_dir()).or_else(|| std::env::current_dir().ok());
         let is_picture = |path: &Path| {
@@ -269,7 +269,7 @@ impl Session {
                 let file = Desk::file_of(&path);
                 // The dialog has asked about the name that was typed only.
                 if file != path && file != desk.path() && file.exists() {
-                    let what = with(self.studio.language.text().work.taken, file.display());
+                    let what = with(self.studio.language.text().session.taken, file.display());
                     self.message = Some(Message { what, advice: String::new(), is_error: true });
                     return;
                 }

@@ -55,7 +55,7 @@ pub(super) struct Flight<'w, 's> {
 
 impl Flight<'_, '_> {
     /// Shows a tour in place of what is shown; the camera stays where it is.
-    pub(super) fn show(&mut self, source: Arc<TourSource>) {
+    pub(super) fn show_tour(&mut self, source: Arc<TourSource>) {
         let asset = TourAsset::from(source);
         if let Some((_, shown, ..)) = self.tours.iter().next() {
             // It was made here, so the handle is its own.
@@ -113,7 +113,7 @@ impl Flight<'_, '_> {
     /// What is still being built.
     pub(super) fn tasks(&self, text: &Text) -> Option<Task> {
         let building = self.tours.iter().find_map(|(.., building)| building)?;
-        let words = &text.work;
+        let words = &text.session;
         let title = if building.is_refining() { words.refining } else { words.building };
         Some(Task { id: 0, title: title.to_owned(), done: Some(building.share_done()), can_cancel: false })
     }

@@ -8,11 +8,10 @@ use super::Session;
 use crate::editor::BrushStroke;
 use crate::picture::{DecodedPicture, Mask, Picture, PicturePoint};
 use crate::suggest::outline::{
-    Brush, BrushMode, GrowBound, GrowOptions, LiveWire, MaskCanvas, Side, Stroke, contact_line, grow,
-    simplified_line,
+    Brush, BrushMode, GrowBound, GrowOptions, LiveWire, Side, Stroke, contact_line, grow, simplified_line,
 };
 use crate::tour::Region;
-use crate::tour::edit::{Edit, MaskPatch, PackedMask, RegionAt};
+use crate::tour::edit::{Edit, PackedMask, RegionAt};
 
 /// How far a traced way may be simplified, picture pixels.
 const TRACE_TOLERANCE: f64 = 1.5;
@@ -89,7 +88,7 @@ impl Session {
         let scale = self.scale(&picture.picture);
         let (stroke, bound) = (scaled(stroke, scale), self.bound_of(at, scale));
         let named = self.owner_of(at);
-        let title = self.studio.language.text().work.growing;
+        let title = self.studio.language.text().session.growing;
         self.start(title, move |_| {
             let options = GrowOptions { tolerance: 1.0, bound };
             let grown = grow(&picture.picture, &stroke, options);
@@ -145,15 +144,12 @@ impl Session {
                 self.set_mask(at, &mask);
             }
         }
-        let (name, Some(mask)) = (self.name_of(at), self.mask_of(at, size, scale)) else { return };
+        let name = self.name_of(at);
         let stroke = scaled(stroke, scale);
         let mode = if stroke.side == Side::Inside { BrushMode::Paint } else { BrushMode::Erase };
-        let mut canvas = MaskCanvas::new(&mask);
-        let Some(changed) = canvas.draw(&Brush { radius: stroke.radius, hardness, mode }, &stroke.points)
-        else {
-            return;
-        };
-        if let Some(patch) = MaskPatch::of(&canvas.mask(), changed) {
+        let brush = Brush { radius: stroke.radius, hardness, mode };
+        let mask = self.desk.as_ref().and_then(|desk| desk.draft().masks.get(&name));
+        if let Some(patch) = mask.and_then(|mask| brush.draw(mask, &stroke.points)) {
             self.edit(&Edit::Paint { name, patch });
         }
     }
@@ -186,7 +182,7 @@ impl Session {
         if std::mem::replace(&mut self.tracing.is_coming, true) {
             return;
         }
-        let title = self.studio.language.text().work.tracing;
+        let title = self.studio.language.text().session.tracing;
         self.start(title, move |_| {
             let wire = LiveWire::new(&picture.picture);
             Box::new(move |session: &mut Self| {

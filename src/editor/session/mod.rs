@@ -50,7 +50,7 @@ impl Plugin for EditorPlugin {
             PreUpdate,
             rest.after(EguiPreUpdateSet::ProcessInput).before(EguiPreUpdateSet::BeginPass),
         );
-        app.add_systems(EguiPrimaryContextPass, show.run_if(resource_exists::<Session>));
+        app.add_systems(EguiPrimaryContextPass, show_studio.run_if(resource_exists::<Session>));
     }
 }
 
@@ -277,7 +277,7 @@ fn work(mut session: ResMut<Session>, mut flight: Flight, time: Res<Time<Real>>)
     match session.check(now) {
         Some(News::Placed(placed)) => flight.rearrange(&placed),
         Some(News::Moving(source)) => flight.set_motion(source),
-        Some(News::Whole(source)) => flight.show(source),
+        Some(News::Whole(source)) => flight.show_tour(source),
         None => {}
     }
     if session.desk.is_none() {
@@ -286,7 +286,7 @@ fn work(mut session: ResMut<Session>, mut flight: Flight, time: Res<Time<Real>>)
 }
 
 /// Shows the studio and does what it asks for.
-fn show(
+fn show_studio(
     mut contexts: EguiContexts,
     mut session: ResMut<Session>,
     mut textures: ResMut<Textures>,

@@ -70,7 +70,7 @@ impl Session {
         strokes.extend(drawn);
         let motion = self.desk.as_ref().and_then(|desk| desk.tour().objects.get(object)).map(|o| &o.motion);
         let is_solid = !matches!(motion, Some(Motion::Sway(_)));
-        let title = self.studio.language.text().work.outlining;
+        let title = self.studio.language.text().session.outlining;
         self.start(title, move |progress| {
             let hints = ObjectHints { corners, strokes: &strokes, earlier: earlier.as_ref(), is_solid };
             let cut = grab_cut(&picture.picture, &hints, &|share, _| progress.at(share));

@@ -42,7 +42,7 @@ impl Session {
             }
             let edits = edits_of(&in_document(&drafted, desk.tour()), &drafted, desk.tour(), |_| true);
             session.edit(&Edit::Many(edits));
-            let words = session.studio.language.text().work;
+            let words = session.studio.language.text().session;
             session.tell(words.drafted, words.drafted_advice);
             if !session.studio.canvas.is_busy() {
                 session.studio.go_to(Step::Horizon);
@@ -58,7 +58,7 @@ impl Session {
         let Some(desk) = &self.desk else { return };
         let file = desk.tour().picture.file.clone();
         let folder = desk.free_mask_folder("draft");
-        let title = self.studio.language.text().work.looking;
+        let title = self.studio.language.text().session.looking;
         self.start(title, move |progress| -> Finish {
             let folder = match RelativePath::new(&folder) {
                 Ok(folder) => folder,
@@ -101,7 +101,7 @@ impl Session {
         if nothing {
             let reason =
                 drafted.trust.iter().map(|remark| remark.sentence.as_str()).next().unwrap_or_default();
-            let words = self.studio.language.text().work;
+            let words = self.studio.language.text().session;
             let told = format!("{}: {reason}", words.nothing_found);
             self.tell(&told, "");
         }

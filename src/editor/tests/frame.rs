@@ -113,6 +113,37 @@ fn escape_stays_but_never_throws_recovered_marks_away() {
 }
 
 #[test]
+fn while_a_question_is_asked_no_key_acts_behind_it() {
+    fn press_all(harness: &mut Harness<'_, Bench>) {
+        for key in [Key::Num3, Key::ArrowDown, Key::Delete, Key::Backspace, Key::Enter, Key::Escape] {
+            harness.key_press(key);
+            harness.run_steps(2);
+        }
+        for key in [Key::Z, Key::Y, Key::S, Key::O] {
+            harness.key_press_modifiers(Modifiers::COMMAND, key);
+            harness.run_steps(2);
+        }
+    }
+    let mut bench = Bench::pond();
+    let selected = Some(Handle::Mark(crate::tour::edit::PointAt::Horizon(0)));
+    bench.studio.canvas.selected = selected;
+    let mut harness = small(bench);
+    // One that no key answers.
+    harness.state_mut().question = Some(Question::Recovery { name: "lake".into(), age: "1 h ago".into() });
+    harness.run_steps(3);
+    press_all(&mut harness);
+    let bench = harness.state();
+    assert_eq!((bench.studio.step, bench.studio.canvas.selected), (Step::Horizon, selected));
+    assert!(bench.log.is_empty(), "asked for: {:?}", bench.log);
+    assert_eq!(bench.tour(), &pond());
+
+    harness.state_mut().question = None;
+    harness.run_steps(3);
+    press_all(&mut harness);
+    assert!(harness.state().studio.step == Step::Ground && !harness.state().log.is_empty());
+}
+
+#[test]
 fn the_start_page_opens() {
     let mut bench = Bench::pond();
     bench.draft = None;

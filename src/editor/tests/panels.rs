@@ -8,6 +8,7 @@ use crate::editor::egui::{Event, Key, Modifiers};
 use crate::tour::edit::{ListEdit, RegionAt};
 use crate::tour::{Floating, FocalLength, Jonswap, Octaves, Scale, Sea, Sway, SwayKind};
 use crate::water::body::Hull;
+use crate::water::sea::fetch;
 
 /// Types a number into the field with this name.
 fn type_number(harness: &mut Harness<'_, Bench>, name: &str, number: &str) {
@@ -171,6 +172,7 @@ fn numbers_left_out_are_shown_as_they_are_used() {
     tour.objects[0].motion = Motion::Floating(floating.clone());
     tour.wind.direction_deg = 20.0;
     tour.waves.sea = Sea::Jonswap(Jonswap::default());
+    let (wave_height, peak_period) = fetch::of_jonswap(&Jonswap::default(), &tour.wind);
     let mut bench = Bench::at(Step::Motion);
     bench.studio.object = Some(0);
     bench.draft = Some(Draft::new(tour));
@@ -190,6 +192,8 @@ fn numbers_left_out_are_shown_as_they_are_used() {
         ("Roll damping", 0.08),
         ("Heave period", hull.heave_period),
         ("Roll period", hull.roll_period),
+        ("Height", wave_height),
+        ("Period", peak_period),
         // That of the waves, below the wind's.
         ("Blows to", 20.0),
     ] {

@@ -76,8 +76,8 @@ texts! {
 }
 
 texts! {
-    /// Work in the background, and what became of it.
-    Work, WORK {
+    /// What a session does: work in the background, files, and what became of them.
+    Session, SESSION {
         tracing: "Finding edges",
         growing: "Growing the region",
         outlining: "Finding the outline",

@@ -62,7 +62,7 @@ pub(crate) struct Text {
     pub(crate) motion: motion::Motions,
     pub(crate) path: motion::Path,
     pub(crate) title: titles::Titles,
-    pub(crate) work: frame::Work,
+    pub(crate) session: frame::Session,
 }
 
 static ENGLISH: Text = Text {
@@ -81,7 +81,7 @@ static ENGLISH: Text = Text {
     motion: motion::MOTIONS,
     path: motion::PATH,
     title: titles::TITLES,
-    work: frame::WORK,
+    session: frame::SESSION,
 };
 
 /// A text with a value in the place of its `{}`.

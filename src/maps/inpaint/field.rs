@@ -10,7 +10,7 @@ use super::Cell;
 use super::level::Level;
 use super::patch::Patch;
 use super::patch::RADIUS;
-use super::random::Random;
+use crate::random::Random;
 
 /// Rows of a strip.
 const STRIP: usize = 16;
@@ -43,7 +43,7 @@ impl Field {
     /// A field of random sources; there must be some.
     pub(super) fn random(level: &Level, seed: u64) -> Self {
         Self::from_fn(level, |cell| {
-            (level.random_source(cell / level.width, &mut Random::new(seed, cell)), UNSEEN)
+            (level.random_source(cell / level.width, &mut Random::new(seed, cell as u64)), UNSEEN)
         })
     }
 
@@ -59,7 +59,7 @@ impl Field {
             if self.cost[coarse] < UNSEEN && level.is_source.get(source) == Some(&true) {
                 (source as u32, self.cost[coarse])
             } else {
-                (level.random_source(y + RADIUS, &mut Random::new(seed, cell)), UNSEEN)
+                (level.random_source(y + RADIUS, &mut Random::new(seed, cell as u64)), UNSEEN)
             }
         })
     }
@@ -139,7 +139,7 @@ impl Field {
                         search.offer_from(above.or_else(in_edge), |source| source + width);
                     }
                 }
-                search.look_around(sweep.reach, &mut Random::new(sweep.seed, cell));
+                search.look_around(sweep.reach, &mut Random::new(sweep.seed, cell as u64));
                 (nearest[at], cost[at]) = (search.source, search.cost);
             }
         });

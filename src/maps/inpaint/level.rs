@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::Cell;
 use super::patch::{COMPARED, Feature, RADIUS, STRANGE, STRANGENESS};
 use super::price::slack;
-use super::random::Random;
+use crate::random::Random;
 
 /// The picture at one size.
 #[derive(Debug)]

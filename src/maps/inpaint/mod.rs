@@ -9,7 +9,6 @@ mod level;
 mod patch;
 mod peel;
 mod price;
-mod random;
 #[cfg(test)]
 mod tests;
 mod texture;
@@ -19,10 +18,10 @@ mod window;
 use self::field::Field;
 use self::field::Sweep;
 use self::level::Level;
-use self::random::Random;
 use self::vote::Ballot;
 use self::window::Window;
 use super::fill::push_pull;
+use crate::random::Random;
 
 /// Levels are halved while their shorter side stays at least this long.
 const SMALLEST_SIDE: usize = 32;
@@ -127,7 +126,7 @@ fn matched(full: Level, options: &Options, progress: &dyn Fn(f32) -> bool) -> Op
     while let Some(mut level) = coarser.pop() {
         let depth = coarser.len();
         let schedule = Schedule::new(depth, options.finest_level);
-        let mut seeds = Random::new(options.seed, depth);
+        let mut seeds = Random::new(options.seed, depth as u64);
         let mut field = match previous.take() {
             Some((width, field)) => {
                 let field = field.enlarged(width, &level, seeds.next());

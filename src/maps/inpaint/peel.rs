@@ -8,7 +8,7 @@ use super::Cell;
 use super::field::Field;
 use super::level::Level;
 use super::patch::Patch;
-use super::random::Random;
+use crate::random::Random;
 
 /// Comparisons at most; beyond, sources are skipped evenly.
 const COMPARISONS: usize = 20_000_000;
@@ -38,7 +38,7 @@ pub(super) fn fill(level: &mut Level, seed: u64) -> Field {
                 Guess { level, known: &known, field: &field, uses: &uses }.best_source(
                     *cell as usize,
                     skip,
-                    Random::new(seed, *cell as usize),
+                    Random::new(seed, u64::from(*cell)),
                 )
             })
             .collect();

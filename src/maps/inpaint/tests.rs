@@ -61,7 +61,7 @@ fn hole(width: usize, height: usize) -> impl Fn(usize, usize) -> Cell {
 
 /// A number from 0 to below 1 for a place.
 fn noise(x: usize, y: usize) -> f32 {
-    Random::new(7, y * 65_536 + x).below(1 << 16) as f32 / 65_536.0
+    Random::new(7, (y * 65_536 + x) as u64).below(1 << 16) as f32 / 65_536.0
 }
 
 /// Hills, with grain.

@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::super::distance::distances;
+use crate::picture::distances;
 
 /// Distances of a mask's edge, by which a cell's place is told.
 #[derive(Debug)]

@@ -5,8 +5,9 @@
 
 use glam::UVec2;
 
-use super::stroke::for_each_near;
+use super::stroke::{block_near_line, for_each_near};
 use crate::picture::{Mask, PicturePoint, PixelRect};
+use crate::tour::edit::MaskPatch;
 
 /// What a brush does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,20 +30,6 @@ pub struct Brush {
     pub mode: BrushMode,
 }
 
-/// A mask that is being painted on.
-#[derive(Clone, PartialEq, Eq)]
-pub struct MaskCanvas {
-    size: UVec2,
-    coverage: Vec<u8>,
-}
-
-impl std::fmt::Debug for MaskCanvas {
-    /// The size alone: nobody reads millions of pixels.
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("MaskCanvas").field("size", &self.size).finish_non_exhaustive()
-    }
-}
-
 impl Brush {
     /// The radius as it is used, pixels.
     fn reach(&self) -> f64 {
@@ -59,60 +46,70 @@ impl Brush {
         let share = ((end - distance) / soft).clamp(0.0, 1.0);
         (share * share * (3.0 - 2.0 * share) * 255.0).round() as u8
     }
-}
-
-impl MaskCanvas {
-    /// A canvas that shows `mask`.
+    /// Draws along a polyline (one point: a dab): what the mask shows afterwards in the smallest block that changes, pixels;
+    /// `None` when nothing does. Points that are not finite are left out.
+    ///
+    /// Takes time and memory for the block around the polyline alone, however large the mask.
     #[must_use]
-    pub fn new(mask: &Mask) -> Self {
-        Self { size: mask.size(), coverage: mask.values().to_vec() }
-    }
-
-    /// The mask as it is now.
-    #[must_use]
-    pub fn mask(&self) -> Mask {
-        let mask = Mask::new(self.size, self.coverage.clone());
-        mask.unwrap_or_else(|_| unreachable!("a canvas has its mask's size and count"))
-    }
-
-    /// All values, 0–255, row by row from the top left.
-    #[must_use]
-    pub fn values(&self) -> &[u8] {
-        &self.coverage
-    }
-
-    /// Draws along a polyline (one point: a dab) and returns the smallest block that changed, pixels; `None` when nothing
-    /// did. Points that are not finite are left out.
-    pub fn draw(&mut self, brush: &Brush, points: &[PicturePoint]) -> Option<PixelRect> {
-        let width = self.size.x;
+    pub fn draw(&self, mask: &Mask, points: &[PicturePoint]) -> Option<MaskPatch> {
+        let reach = self.reach() + 1.0;
+        let block = block_near_line(mask.size(), points, reach)?;
+        let (mut drawn, width) = (mask.block(block)?, block.size().x);
         let mut changed: Option<PixelRect> = None;
-        let coverage = &mut self.coverage;
-        for_each_near(self.size, points, brush.reach() + 1.0, |x, y, distance| {
-            let value = &mut coverage[(y * width + x) as usize];
-            let effect = brush.effect(distance);
-            let new = match brush.mode {
+        for_each_near(mask.size(), points, reach, |x, y, distance| {
+            let pixel = UVec2::new(x, y) - block.min;
+            let value = &mut drawn[(pixel.y * width + pixel.x) as usize];
+            let effect = self.effect(distance);
+            let new = match self.mode {
                 BrushMode::Paint => (*value).max(effect),
                 BrushMode::Erase => (*value).min(255 - effect),
             };
             if new != *value {
                 *value = new;
-                let pixel = UVec2::new(x, y);
                 let rect = changed.get_or_insert(PixelRect { min: pixel, max: pixel + 1 });
                 (rect.min, rect.max) = (rect.min.min(pixel), rect.max.max(pixel + 1));
             }
         });
-        changed
+        let changed = changed?;
+        let values = Mask::new(block.size(), drawn).ok()?.block(changed)?;
+        MaskPatch::new(PixelRect { min: block.min + changed.min, max: block.min + changed.max }, &values)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tour::TourFile;
+    use crate::tour::edit::{Draft, Edit};
 
     const SIZE: UVec2 = UVec2::new(120, 80);
 
-    fn canvas(value: u8) -> MaskCanvas {
-        MaskCanvas::new(&Mask::new(SIZE, vec![value; 9600]).unwrap())
+    /// A draft's mask that is painted on, as the studio does.
+    #[derive(Clone, PartialEq)]
+    struct Canvas(Draft);
+
+    impl Canvas {
+        fn mask(&self) -> &Mask {
+            self.0.masks.get("mask.png").unwrap()
+        }
+
+        fn values(&self) -> &[u8] {
+            self.mask().values()
+        }
+
+        /// Draws, and gives the block that was told to change.
+        fn draw(&mut self, brush: &Brush, points: &[PicturePoint]) -> Option<PixelRect> {
+            let patch = brush.draw(self.mask(), points)?;
+            let rect = patch.rect();
+            Edit::Paint { name: "mask.png".into(), patch }.apply(&mut self.0).unwrap();
+            Some(rect)
+        }
+    }
+
+    fn canvas(value: u8) -> Canvas {
+        let mut draft = Draft::new(TourFile::new("lake.png".into()));
+        draft.masks.load("mask.png", Mask::new(SIZE, vec![value; 9600]).unwrap());
+        Canvas(draft)
     }
 
     fn points(points: &[(f64, f64)]) -> Vec<PicturePoint> {

@@ -7,7 +7,7 @@ use super::hints::ObjectHints;
 use super::max_flow::{GridCut, STEPS};
 use super::mixture::{Mixture, PLACE, Sample};
 use super::scaled::Scaled;
-use crate::picture::{Picture, PixelRect};
+use crate::picture::{Picture, PixelRect, distances};
 
 /// What a border across even color costs a link (γ of the paper): of a body, and of foliage, which is all border.
 const GAMMA: f32 = 50.0;
@@ -219,32 +219,8 @@ fn lean(scaled: &Scaled, known: &[Option<bool>]) -> Vec<f32> {
     if !known.contains(&Some(true)) || !known.contains(&Some(false)) {
         return vec![0.0; known.len()];
     }
-    let [to_outer, to_inner] = [false, true].map(|side| distances(scaled.width, known, side));
+    let [to_outer, to_inner] =
+        [false, true].map(|side| distances(scaled.width, scaled.height, |cell| known[cell] == Some(side)));
     let share = |(outer, inner): (&f32, &f32)| LEAN * (inner - outer) / (inner + outer).max(1.0);
     to_outer.iter().zip(&to_inner).map(share).collect()
-}
-
-/// Distance of each cell to the nearest one that is certainly on `side`, cells, 8 % too far at most (Borgefors 1986).
-fn distances(width: usize, known: &[Option<bool>], side: bool) -> Vec<f32> {
-    let mut distances: Vec<f32> =
-        known.iter().map(|known| if *known == Some(side) { 0.0 } else { f32::MAX }).collect();
-    let cells = known.len();
-    let mut pull = |cell: usize, is_back: bool| {
-        let (x, w) = (cell % width, width as isize);
-        let sign = if is_back { -1 } else { 1 };
-        for (step, length) in
-            [(1, 1.0), (w, 1.0), (w + 1, std::f32::consts::SQRT_2), (w - 1, std::f32::consts::SQRT_2)]
-        {
-            let Some(next) = cell.checked_add_signed(sign * step).filter(|next| *next < cells) else {
-                continue;
-            };
-            // Steps wrap around from row to row.
-            if (next % width).abs_diff(x) <= 1 {
-                distances[cell] = distances[cell].min(distances[next] + length);
-            }
-        }
-    };
-    (0..cells).for_each(|cell| pull(cell, true));
-    (0..cells).rev().for_each(|cell| pull(cell, false));
-    distances
 }

@@ -7,6 +7,8 @@
 
 use rayon::prelude::*;
 
+use crate::random::Random;
+
 /// Column and row, scaled, then red, green, blue as 0–1.
 pub(super) type Sample = [f32; WIDTH];
 
@@ -219,7 +221,7 @@ fn nearest(centers: &[Sample], sample: &Sample) -> (usize, f32) {
 
 /// Centers of at most `parts` clusters: begun far from each other (Arthur & Vassilvitskii 2007), then Lloyd's rounds.
 fn k_means(samples: &[(Sample, f32)], parts: usize, seed: u64) -> Vec<Sample> {
-    let mut state = seed;
+    let mut random = Random::new(seed, 0);
     let mut centers: Vec<Sample> = Vec::new();
     for _ in 0..parts {
         let weight = |(sample, weight): &(Sample, f32)| {
@@ -230,7 +232,7 @@ fn k_means(samples: &[(Sample, f32)], parts: usize, seed: u64) -> Vec<Sample> {
         if total <= 0.0 {
             break;
         }
-        let mut left = splitmix(&mut state) * total;
+        let mut left = random.unit() as f32 * total;
         let drawn = samples.iter().find(|sample| {
             left -= weight(sample);
             left < 0.0
@@ -253,15 +255,6 @@ fn k_means(samples: &[(Sample, f32)], parts: usize, seed: u64) -> Vec<Sample> {
         }
     }
     centers
-}
-
-/// A number from 0 to below 1 (splitmix64).
-fn splitmix(state: &mut u64) -> f32 {
-    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let mut bits = *state;
-    bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    ((bits ^ (bits >> 31)) >> 40) as f32 / (1_u32 << 24) as f32
 }
 
 #[cfg(test)]

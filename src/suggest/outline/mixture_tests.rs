@@ -4,11 +4,11 @@ use super::*;
 
 /// Two clouds of 500 colors, around (0.2, 0.2, 0.2) and (0.8, 0.5, 0.2), both all over a square.
 fn clouds() -> Vec<Sample> {
-    let mut state = 7;
+    let mut random = Random::new(7, 0);
     let middles = [[0.2; 3], [0.8, 0.5, 0.2]];
     let sample = |i: usize| {
         let [x, y] = [i % 25, i / 25].map(|at| at as f32 / 40.0);
-        let color: [f32; 3] = std::array::from_fn(|k| middles[i % 2][k] + 0.1 * (splitmix(&mut state) - 0.5));
+        let color: [f32; 3] = std::array::from_fn(|k| middles[i % 2][k] + 0.1 * (random.unit() as f32 - 0.5));
         [x, y, color[0], color[1], color[2]]
     };
     (0..1000).map(sample).collect()

@@ -21,7 +21,7 @@ mod search;
 mod stroke;
 mod trace;
 
-pub use brush::{Brush, BrushMode, MaskCanvas};
+pub use brush::{Brush, BrushMode};
 pub use contact::{ContactLine, contact_line};
 pub use grabcut::{Cutout, grab_cut};
 pub use grow::{GrowBound, GrowOptions, grow};

@@ -81,6 +81,19 @@ pub(super) fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     p.distance(nearest)
 }
 
+/// The segments of a polyline; a click is one of no length.
+fn segments(points: &[PicturePoint]) -> impl Iterator<Item = (DVec2, DVec2)> {
+    let finite = || points.iter().map(|point| point.0).filter(|point| point.is_finite());
+    let is_click = finite().nth(1).is_none();
+    finite().zip(finite().skip(usize::from(!is_click)))
+}
+
+/// The block of all pixels whose centers may lie within `reach` of a polyline; `None` when there is none.
+pub(super) fn block_near_line(size: UVec2, points: &[PicturePoint], reach: f64) -> Option<PixelRect> {
+    let blocks = segments(points).filter_map(|(a, b)| block_near(size, a, b, reach));
+    blocks.reduce(|a, b| PixelRect { min: a.min.min(b.min), max: a.max.max(b.max) })
+}
+
 /// Calls `at` with column, row and distance in pixels for each pixel whose center lies within `reach` of a polyline. Pixels
 /// near several segments come several times.
 pub(super) fn for_each_near(
@@ -89,10 +102,7 @@ pub(super) fn for_each_near(
     reach: f64,
     mut at: impl FnMut(u32, u32, f64),
 ) {
-    let points: Vec<DVec2> = points.iter().map(|point| point.0).filter(|point| point.is_finite()).collect();
-    // A click is a segment of no length.
-    let starts = if points.len() == 1 { &points[..] } else { &points[1.min(points.len())..] };
-    for (&a, &b) in points.iter().zip(starts) {
+    for (a, b) in segments(points) {
         let Some(block) = block_near(size, a, b, reach) else { continue };
         for y in block.min.y..block.max.y {
             for x in block.min.x..block.max.x {

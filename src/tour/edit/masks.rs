@@ -1,7 +1,8 @@
 //! The masks beside a document, and rectangles of coverage as edits keep them.
 //!
 //! A mask is known by the path that the document names it by. Its pixels are shared: a clone of the store is cheap, and a
-//! mask that was not painted on is the same one ([`Arc::ptr_eq`]).
+//! mask that was not painted on is the same one ([`Arc::ptr_eq`]). Painting copies a mask only while somebody else holds it,
+//! so whoever wants to know no more than whether it is still the same holds a [`Weak`](std::sync::Weak).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -70,16 +71,10 @@ impl Masks {
         };
         let before = MaskPatch::of(mask, patch.rect);
         let before = before.ok_or_else(|| EditError::PatchMisfit { name: name.to_owned() })?;
-        let size = mask.size();
-        let mut values = mask.values().to_vec();
-        let width = patch.rect.size().x as usize;
         let painted = patch.values()?;
-        for (y, row) in (patch.rect.min.y as usize..).zip(painted.chunks_exact(width)) {
-            let start = y * size.x as usize + patch.rect.min.x as usize;
-            values[start..start + width].copy_from_slice(row);
-        }
-        *mask = Arc::new(Mask::new(size, values).map_err(|_| EditError::Damaged)?);
-        Ok(before)
+        // In place; for those who hold it by a `Weak`, the mask is another one from now on.
+        let is_painted = Arc::make_mut(mask).set_block(patch.rect, &painted);
+        is_painted.then_some(before).ok_or(EditError::Damaged)
     }
 }
 
@@ -128,15 +123,7 @@ impl MaskPatch {
     /// What a mask shows in a rectangle; `None` when that is empty or reaches beyond the mask.
     #[must_use]
     pub fn of(mask: &Mask, rect: PixelRect) -> Option<Self> {
-        let inside = rect.min.cmplt(rect.max).all() && rect.max.cmple(mask.size()).all();
-        if !inside {
-            return None;
-        }
-        let columns = rect.min.x as usize..rect.max.x as usize;
-        let rows = mask.values().chunks_exact(mask.size().x as usize);
-        let rows = rows.skip(rect.min.y as usize).take(rect.size().y as usize);
-        let values: Vec<u8> = rows.flat_map(|row| &row[columns.clone()]).copied().collect();
-        Self::new(rect, &values)
+        Self::new(rect, &mask.block(rect)?)
     }
 
     /// Where it lies.

@@ -2,6 +2,8 @@
 
 mod random;
 
+use std::sync::{Arc, Weak};
+
 use glam::UVec2;
 
 use super::*;
@@ -196,6 +198,28 @@ fn painting_changes_its_rectangle_alone() {
     assert!(matches!(edit.apply(&mut draft), Err(EditError::PatchMisfit { .. })));
     let inside_out = PixelRect { min: UVec2::new(5, 5), max: UVec2::new(2, 2) };
     assert!(MaskPatch::new(inside_out, &[0; 9]).is_none());
+}
+
+#[test]
+fn a_mask_is_painted_in_place_unless_somebody_holds_it() {
+    let (mut draft, mut history) = (draft(), History::new(true));
+    let name = "masks/boat.png";
+    let there = |draft: &Draft| Arc::clone(draft.masks.get(name).unwrap());
+    let pixels = |draft: &Draft| draft.masks.get(name).unwrap().values().as_ptr();
+    let paint = |value| Edit::Paint { name: name.into(), patch: patch(value) };
+
+    let (held, place) = (there(&draft), pixels(&draft));
+    history.apply(&paint(1), &mut draft).unwrap();
+    assert!(*held == mask(0), "what somebody holds has changed");
+    assert_ne!(pixels(&draft), place);
+
+    let (seen, place) = (Arc::downgrade(&there(&draft)), pixels(&draft));
+    history.begin_gesture();
+    (2..9).for_each(|value| assert!(history.apply(&paint(value), &mut draft).unwrap()));
+    history.undo(&mut draft).unwrap();
+    history.redo(&mut draft).unwrap();
+    assert_eq!(pixels(&draft), place, "the mask was copied, though nobody holds it");
+    assert!(!Weak::ptr_eq(&seen, &Arc::downgrade(&there(&draft))), "it was painted on, yet is the same");
 }
 
 #[test]

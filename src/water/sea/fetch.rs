@@ -8,7 +8,7 @@
 use std::f64::consts::TAU;
 
 use super::super::{GRAVITY, angular_frequency};
-use crate::tour::Wind;
+use crate::tour::{Jonswap, Octaves, Wind};
 
 /// Meters of open water that the wind has blown over.
 const FETCH: f64 = 1000.0;
@@ -25,6 +25,21 @@ const LIGHT_BREEZE: f64 = 4.0;
 /// The wind that shape and phases of the waves belong to, m/s: the tour's own.
 pub(super) fn nominal_speed(wind: &Wind) -> f64 {
     if wind.speed > 0.0 && wind.speed.is_finite() { wind.speed } else { LIGHT_BREEZE }
+}
+
+/// Significant height and longest wavelength that octaves have in a tour's own wind, meters: those given, else the wind's.
+pub(crate) fn of_octaves(options: &Octaves, wind: &Wind) -> (f64, f64) {
+    let deep = f64::INFINITY;
+    // A wavelength given alone fits the height to it, as a peak period does.
+    let given = options.wavelength.map(|length| TAU / angular_frequency(TAU / length, deep));
+    let (height, period) = height_and_period(nominal_speed(wind), options.max_height, given, deep);
+    (height, options.wavelength.unwrap_or_else(|| TAU / wave_number(TAU / period, deep)))
+}
+
+/// Significant height in meters and period of the highest waves in seconds that a JONSWAP sea has in a tour's own wind:
+/// those given, else the wind's.
+pub(crate) fn of_jonswap(options: &Jonswap, wind: &Wind) -> (f64, f64) {
+    height_and_period(nominal_speed(wind), options.max_height, options.peak_period_seconds, options.depth)
 }
 
 /// Significant height and the period of the highest waves: those given, else from a wind of `speed` m/s, in meters

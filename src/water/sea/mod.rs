@@ -5,7 +5,7 @@
 //! time and gain.
 
 mod covariance;
-mod fetch;
+pub(crate) mod fetch;
 mod recorded;
 mod resample;
 mod spectrum;

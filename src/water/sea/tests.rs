@@ -168,6 +168,30 @@ fn a_calm_lake_has_a_calm_lakes_numbers() {
 }
 
 #[test]
+fn given_the_numbers_that_the_wind_would_choose_the_sea_is_the_same() {
+    for wind in [wind(4.0, 0), wind(0.0, 1), wind(12.0, 2)] {
+        let (height, length) = fetch::of_octaves(&Octaves::default(), &wind);
+        let own = Octaves { max_height: Some(height), wavelength: Some(length), ..Octaves::default() };
+        let (same_height, period) = fetch::of_jonswap(&Jonswap::default(), &wind);
+        let peaked = Jonswap {
+            max_height: Some(same_height),
+            peak_period_seconds: Some(period),
+            ..Jonswap::default()
+        };
+        assert!(height > 0.0 && (height - same_height).abs() < 1e-12, "{height} {same_height}");
+        for (usual, own) in both(&wind).into_iter().zip([octaves(own, &wind), jonswap(peaked, &wind)]) {
+            let [usual, own] =
+                [&usual, &own].map(|sea| sea.waves().unwrap().exact(DVec2::new(3.0, -8.0), 1.7));
+            assert!((usual.height - own.height).abs() < 1e-6, "{usual:?} {own:?}");
+        }
+        // A wavelength alone fits the height to it: 0.035 of it at most.
+        let short = Octaves { wavelength: Some(0.5), ..Octaves::default() };
+        let (height, length) = fetch::of_octaves(&short, &wind);
+        assert!(length == 0.5 && height <= 0.0175 + 1e-9, "{height} {length}");
+    }
+}
+
+#[test]
 fn the_sea_repeats_without_a_gap() {
     for mut sea in both(&wind(4.0, 2)) {
         let period = sea.waves().unwrap().period();

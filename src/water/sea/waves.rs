@@ -18,8 +18,8 @@ use super::spectrum::Spectrum;
 use super::spread::{RAY_SPACING, Spread};
 use super::tile::kept_by_mean;
 use super::{FINEST, WaveSample};
+use crate::random::Random;
 use crate::tour::{Jonswap, Octaves, Wind};
-use crate::wind::Random;
 
 /// Ratio of the tiles' sizes: the golden ratio's cube, so that the two never repeat together.
 const RATIO: f64 = 4.236_067_977_499_79;
@@ -87,12 +87,7 @@ impl Waves {
     /// Octaves of sines, each a fan of waves around one direction (notes §7.1).
     pub(super) fn octaves(options: &Octaves, wind: &Wind) -> Self {
         let period = sound_period(wind);
-        // A wavelength given alone fits the height to it, as a peak period does.
-        let given = options.wavelength.map(|length| TAU / angular_frequency(TAU / length, f64::INFINITY));
-        let speed = fetch::nominal_speed(wind);
-        let (height, peak_period) = fetch::height_and_period(speed, options.max_height, given, f64::INFINITY);
-        let longest =
-            options.wavelength.unwrap_or_else(|| TAU / fetch::wave_number(TAU / peak_period, f64::INFINITY));
+        let (height, longest) = fetch::of_octaves(options, wind);
         let direction_deg = options.direction_deg.unwrap_or(wind.direction_deg);
 
         // Three octaves to a tile: 6, 12 and 24 waves across the large one, 5.7, 11.3 and 22.7 across the small one.
@@ -130,12 +125,7 @@ impl Waves {
     /// A sea with the JONSWAP spectrum in two bands: the small tile begins at the wave number where the large one ends.
     pub(super) fn jonswap(options: &Jonswap, wind: &Wind) -> Self {
         let period = sound_period(wind);
-        let (height, peak_period) = fetch::height_and_period(
-            fetch::nominal_speed(wind),
-            options.max_height,
-            options.peak_period_seconds,
-            options.depth,
-        );
+        let (height, peak_period) = fetch::of_jonswap(options, wind);
         let spectrum = Spectrum::new(peak_period, options.depth);
         let size = 12.0 * TAU / spectrum.peak_wave_number();
         let sizes = [size, size / RATIO];

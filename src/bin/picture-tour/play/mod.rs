@@ -42,10 +42,7 @@ pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
         return render_instead(tour, opened.asset.tour().path.is_some(), missing);
     }
     let name = opened.name.clone();
-    let title = format!(
-        "{} - picture tour",
-        tour.as_deref().map_or("lake (demo)".into(), |path| path.to_string_lossy())
-    );
+    let title = tours::title(tour.as_deref());
     let exit = App::new()
         .add_plugins((
             DefaultPlugins

@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use bevy::camera_controller::free_camera::{FreeCamera, FreeCameraState};
 use bevy::prelude::*;
 use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
-use bevy::window::FileDragAndDrop;
-use bevy_picture_tour::plugin::{PictureTour, TourAsset, TourFailed, TourReady};
+use bevy::window::{FileDragAndDrop, PrimaryWindow};
+use bevy_picture_tour::plugin::{
+    Guide, PictureTour, TourAsset, TourCamera, TourCameraState, TourFailed, TourReady,
+};
 use bevy_picture_tour::tour::Tour;
 
 use super::overlay::Overlay;
@@ -20,6 +23,8 @@ const LOOK_EVERY: f32 = 0.5;
 #[derive(Resource)]
 pub(super) struct Current {
     path: Option<PathBuf>,
+    /// Whether it is another tour than the one that is still shown.
+    is_another: bool,
     name: String,
     asset: TourAsset,
     handle: Handle<TourAsset>,
@@ -39,7 +44,16 @@ struct Reread {
 impl Current {
     pub(super) fn new(path: Option<PathBuf>, name: String, asset: TourAsset) -> Self {
         let written = path.as_deref().and_then(|path| newest(path, asset.tour()));
-        Self { path, name, asset, handle: Handle::default(), written, seconds: 0.0, reading: None }
+        Self {
+            path,
+            is_another: false,
+            name,
+            asset,
+            handle: Handle::default(),
+            written,
+            seconds: 0.0,
+            reading: None,
+        }
     }
 
     fn read(&mut self, path: PathBuf) {
@@ -107,6 +121,9 @@ pub(super) fn take_reread(
         Ok(opened) => {
             // What was written while it was read is read again.
             current.written = newest(&path, opened.asset.tour()).map(|written| written.min(began));
+            if current.path.as_ref() != Some(&path) {
+                current.is_another = true;
+            }
             current.path = Some(path);
             current.name = opened.name;
             current.asset = opened.asset.clone();
@@ -121,8 +138,32 @@ pub(super) fn take_reread(
     }
 }
 
-pub(super) fn ready(ready: On<TourReady>, current: Res<Current>, mut overlay: ResMut<Overlay>) {
+/// The window's title for a tour; the demo has no path.
+pub(super) fn title(path: Option<&Path>) -> String {
+    format!("{} - picture tour", path.map_or("lake (demo)".into(), Path::to_string_lossy))
+}
+
+/// A tour is shown: another one is entered from its own place, under its own title.
+pub(super) fn ready(
+    ready: On<TourReady>,
+    mut current: ResMut<Current>,
+    mut overlay: ResMut<Overlay>,
+    mut windows: Query<&mut Window, With<PrimaryWindow>>,
+    mut cameras: Query<(Entity, &mut TourCamera, &mut TourCameraState)>,
+    mut commands: Commands,
+) {
     overlay.problem = None;
+    if std::mem::take(&mut current.is_another) {
+        for mut window in &mut windows {
+            window.title = title(current.path.as_deref());
+        }
+        for (entity, mut camera, mut state) in &mut cameras {
+            camera.guide = Guide::Visitor;
+            // Without a pose it arrives anew.
+            state.pose = None;
+            commands.entity(entity).remove::<(FreeCamera, FreeCameraState)>();
+        }
+    }
     if ready.preview {
         overlay
             .say("A preview: what is hidden and beyond the frame is still being painted. H shows the keys.");

@@ -9,7 +9,7 @@ const FAR: f32 = 1e12;
 
 /// Distance in cells from each cell's center to the nearest center for which `is` holds; 1e6 where there is
 /// none.
-pub(super) fn distances(width: usize, height: usize, is: impl Fn(usize) -> bool) -> Vec<f32> {
+pub(crate) fn distances(width: usize, height: usize, is: impl Fn(usize) -> bool) -> Vec<f32> {
     // Along the columns first: down, then up.
     let mut distances: Vec<f32> =
         (0..width * height).map(|cell| if is(cell) { 0.0 } else { FAR.sqrt() }).collect();
