@@ -103,7 +103,7 @@ mod tests {
         list(&folder, ["a.png", "b.png"].into_iter()).unwrap();
         let out = place.join("lake.tour.ron");
         fs::write(&out, "(water: Mask(\"lake.masks/a.png\"))").unwrap();
-        assert_eq!(made_for(&out, "lake"), [folder.clone()]);
+        assert_eq!(made_for(&out, "lake"), std::slice::from_ref(&folder));
         fs::write(out, "(water: Mask(\"lake.masks_2/a.png\"))").unwrap();
         folder
     }
@@ -112,7 +112,7 @@ mod tests {
     fn what_was_made_goes_with_its_tour() {
         let place = tempfile::tempdir().unwrap();
         let folder = replaced(place.path());
-        assert_eq!(remove(vec![folder.clone()]), [folder.clone()]);
+        assert_eq!(remove(vec![folder.clone()]), std::slice::from_ref(&folder));
         assert!(!folder.exists());
     }
 
