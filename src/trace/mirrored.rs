@@ -1,11 +1,12 @@
 //! What the water shows: the mirrored ray and the reflection maps it reads. Twin of `water.wgsl`.
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, DVec3, Vec4};
 
 use super::{Accumulated, Look, OPAQUE, Reference, cross_faded};
 use crate::camera::Ray;
 use crate::maps::MIP_LEVELS;
 use crate::maps::Mipmapped;
+use crate::picture::PicturePoint;
 use crate::scene::Role;
 use crate::scene::Surface;
 use crate::scene::mirror;
@@ -13,9 +14,15 @@ use crate::scene::mirror;
 /// A mirrored ray climbs at least this steeply; steep waves would send it under the water (notes §8.2).
 const LEAST_CLIMB: f64 = 1e-5;
 
-/// Texels that a mip level read for blur stands for, per standard deviation of the blur: it is round, real blur upright, so
-/// that less is right than the 1.5 of notes §8.4.
-const BLUR_TEXELS: f64 = 0.7;
+/// Upright blur (notes §8.4): looks above and below the middle one, how far they are apart in standard deviations, texels of a
+/// mip level for each deviation, and deviations that count, texels.
+const LOOKS: i32 = 2;
+const APART: f64 = 0.85;
+const BLUR_TEXELS: f64 = 0.6;
+const LEAST_BLUR: f64 = 0.1;
+const MOST_BLUR: f64 = 24.0;
+/// The same across, where grazing waves hardly blur.
+const ACROSS_TEXELS: f64 = 1.5;
 
 /// A mirrored ray.
 struct Up {
@@ -27,6 +34,31 @@ struct Up {
     to_water: f64,
     /// Standard deviation of the slopes that the pixel does not resolve.
     blur: f64,
+}
+
+/// How unresolved waves blur what lies behind them.
+#[derive(Clone, Copy)]
+struct Blur {
+    /// Mip level.
+    level: f32,
+    /// Standard deviation upwards and downwards, picture pixels; 0 for none.
+    upright: f64,
+}
+
+impl Blur {
+    /// A map at a picture point, blurred upright: looks one above the other, each weighing as much as it covers.
+    fn sample(self, at: PicturePoint, map: impl Fn(PicturePoint, f32) -> [f32; 4]) -> [f32; 4] {
+        let looks = if self.upright > 0.0 { LOOKS } else { 0 };
+        let (mut sum, mut weights) = (Vec4::ZERO, 0.0);
+        for i in -looks..=looks {
+            let away = APART * f64::from(i);
+            let weight = (-0.5 * away * away).exp() as f32;
+            let texel = Vec4::from(map(PicturePoint(at.0 + away * self.upright * DVec2::Y), self.level));
+            sum += weight * (texel.w * texel).with_w(texel.w);
+            weights += weight;
+        }
+        (sum / sum.w.max(1e-6)).with_w(sum.w / weights).to_array()
+    }
 }
 
 impl Reference<'_> {
@@ -80,9 +112,10 @@ impl Reference<'_> {
             None => {
                 let away = mirror(up.ray.direction);
                 let (at, depth) = self.eye.see_far(away);
-                let level = look.level(self.scene, away, depth).max(self.blur_level(&up, 1.0));
+                let blur = self.blur(&up, 1.0, look.level(self.scene, away, depth));
                 // In the water clouds that rise sink.
-                let sky = self.drifted(last, at, level, DVec2::new(1.0, -1.0));
+                let sinking = DVec2::new(1.0, -1.0);
+                let sky = blur.sample(at, |at, level| self.drifted(last, at, level, sinking));
                 self.at_angle(sky, up.ray.direction, up.grazing)
             }
         };
@@ -117,19 +150,26 @@ impl Reference<'_> {
     ) -> [f32; 4] {
         let (at, depth) = self.eye.see(rest);
         let behind = t / (t + up.to_water);
-        let level = look.level(self.scene, point - look.position, depth).max(self.blur_level(up, behind));
-        let texel = map.sample(at, level);
+        let blur = self.blur(up, behind, look.level(self.scene, point - look.position, depth));
+        let sample = |at: PicturePoint| blur.sample(at, |at, level| map.sample(at, level));
+        let texel = sample(at);
         let texel = match copy {
-            Some((copy, share)) => cross_faded(texel, map.sample(self.eye.see(copy).0, level), share),
+            Some((copy, share)) => cross_faded(texel, sample(self.eye.see(copy).0), share),
             None => texel,
         };
         self.at_angle(texel, self.scene.camera.pose.position - rest, up.grazing)
     }
 
-    /// The mip level as blurred as unresolved waves make what lies `behind` the water by this share of the way.
-    fn blur_level(&self, up: &Up, behind: f64) -> f32 {
-        let deviation = 2.0 * self.scene.camera.intrinsics.focal_px * up.blur * behind;
-        ((BLUR_TEXELS * deviation).max(1.0).log2() as f32).min(MIP_LEVELS as f32)
+    /// How what lies `behind` the water by this share of the way is blurred, where pixels see it at a mip level anyway.
+    fn blur(&self, up: &Up, behind: f64, seen: f32) -> Blur {
+        let deviation = (2.0 * self.scene.camera.intrinsics.focal_px * up.blur * behind).min(MOST_BLUR);
+        if deviation < LEAST_BLUR {
+            return Blur { level: seen, upright: 0.0 };
+        }
+        let texels = BLUR_TEXELS.max(ACROSS_TEXELS * f64::from(up.grazing)) * deviation;
+        // From a deviation of one texel on the coarser levels are read, which cost one fetch each.
+        let level = texels.max(1.0).log2().max(deviation.min(1.0)) as f32;
+        Blur { level: seen.max(level).min(MIP_LEVELS as f32), upright: deviation }
     }
 
     /// A texel of the water, from which `was` goes up to the picture's camera, for another grazing angle (its sine).

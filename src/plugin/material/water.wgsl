@@ -15,8 +15,15 @@
 const OPAQUE: f32 = 1.0 / 8192.0;
 // A mirrored ray climbs at least this steeply.
 const LEAST_CLIMB: f32 = 1e-5;
-// Texels that a mip level read for blur stands for, per standard deviation of the blur.
-const BLUR_TEXELS: f32 = 0.7;
+// Upright blur: looks above and below the middle one, how far they are apart in standard deviations, texels of a mip level
+// for each deviation, and deviations that count, texels.
+const LOOKS: i32 = 2;
+const APART: f32 = 0.85;
+const BLUR_TEXELS: f32 = 0.6;
+const LEAST_BLUR: f32 = 0.1;
+const MOST_BLUR: f32 = 24.0;
+// The same across, where grazing waves hardly blur.
+const ACROSS_TEXELS: f32 = 1.5;
 
 // A reflection map at a picture point; its border is prolonged.
 fn sample_map(maps: texture_2d<f32>, filtering: sampler, found: Component, at: vec2<f32>, level: f32) -> vec4<f32> {
@@ -24,6 +31,29 @@ fn sample_map(maps: texture_2d<f32>, filtering: sampler, found: Component, at: v
     let last = found.atlas.xy + round(found.layer.zw * found.atlas.z) - 1.0;
     let texel = found.atlas.xy + (snap(at) - found.layer.xy) * found.atlas.z;
     return sharp(maps, filtering, texel, found.atlas.xy, last, level);
+}
+
+// How unresolved waves blur what lies behind them.
+struct Blur {
+    // Mip level.
+    level: f32,
+    // Standard deviation upwards and downwards, picture pixels; 0 for none.
+    upright: f32,
+}
+
+// A reflection map at a picture point, blurred upright: looks one above the other, each weighing as much as it covers.
+fn sample_blurred(maps: texture_2d<f32>, filtering: sampler, found: Component, at: vec2<f32>, blur: Blur) -> vec4<f32> {
+    let looks = select(0, LOOKS, blur.upright > 0.0);
+    var sum = vec4(0.0);
+    var weights = 0.0;
+    for (var i = -looks; i <= looks; i++) {
+        let away = APART * f32(i);
+        let weight = exp(-0.5 * away * away);
+        let texel = sample_map(maps, filtering, found, at + vec2(0.0, away * blur.upright), blur.level);
+        sum += weight * vec4(texel.a * texel.rgb, texel.a);
+        weights += weight;
+    }
+    return vec4(sum.rgb / max(sum.a, 1e-6), sum.a / weights);
 }
 
 // Schlick's reflectance of water seen at a grazing angle of this sine. Twin of `fresnel` in `maps/tint.rs`.
@@ -56,10 +86,16 @@ struct Look {
     blur: f32,
 }
 
-// The mip level as blurred as unresolved waves make what lies behind the water by this share of the way.
-fn blur_level(tour: TourUniform, look: Look, share: f32, scale: f32) -> f32 {
-    let deviation = 2.0 * tour.flags.w * look.blur * share * scale;
-    return min(log2(max(BLUR_TEXELS * deviation, 1.0)), MIP_LEVELS);
+// How what lies behind the water by this share of the way is blurred, where pixels see it at a mip level anyway.
+fn blur_of(tour: TourUniform, look: Look, share: f32, scale: f32, seen: f32) -> Blur {
+    let deviation = min(2.0 * tour.flags.w * look.blur * share * scale, MOST_BLUR);
+    if deviation < LEAST_BLUR {
+        return Blur(seen, 0.0);
+    }
+    let texels = max(BLUR_TEXELS, ACROSS_TEXELS * look.grazing) * deviation;
+    // From a deviation of one texel on the coarser levels are read, which cost one fetch each.
+    let level = max(log2(max(texels, 1.0)), min(deviation, 1.0));
+    return Blur(min(max(seen, level), MIP_LEVELS), deviation / scale);
 }
 
 // Where a mirrored ray meets a component above the water; a negative distance for a miss.
@@ -84,16 +120,14 @@ fn mirror_hit(
     let away = mirror(met.point) - look.eye;
     let seen = see(tour, image);
     let share = met.distance / (met.distance + look.to_water);
-    let level = max(
-        level_of(tour, records, look.row, away, seen.z, found.atlas.z),
-        blur_level(tour, look, share, found.atlas.z),
-    );
-    var texel = sample_map(maps, filtering, found, seen.xy, level);
+    let level = level_of(tour, records, look.row, away, seen.z, found.atlas.z);
+    let blur = blur_of(tour, look, share, found.atlas.z, level);
+    var texel = sample_blurred(maps, filtering, found, seen.xy, blur);
 #ifdef TOUR_RETURNS
     // One more look for the boats that come back, none for all else.
     if met.mirrored > 0.0 {
         let copy = see(tour, mirror(met.copy));
-        texel = cross_faded(texel, sample_map(maps, filtering, found, copy.xy, level), met.mirrored);
+        texel = cross_faded(texel, sample_blurred(maps, filtering, found, copy.xy, blur), met.mirrored);
     }
 #endif
     return Hit(met.distance, at_angle(tour, texel, tour.eye.xyz - image, look.grazing));
@@ -183,19 +217,17 @@ fn mirrored(
             share = met.distance / (met.distance + to_water);
         }
     }
-    let level = max(
-        level_of(tour, records, row, away, seen.z, last.atlas.z),
-        blur_level(tour, look, share, last.atlas.z),
-    );
+    let level = level_of(tour, records, row, away, seen.z, last.atlas.z);
+    let soft = blur_of(tour, look, share, last.atlas.z, level);
 #ifdef TOUR_DRIFTS
     // In the water clouds that rise sink.
     let first = cloud_copy(records, 0);
     let second = cloud_copy(records, 1);
     let down = vec2(1.0, -1.0);
-    let sky = first.z * sample_map(maps, filtering, last, seen.xy - first.xy * down, level)
-        + second.z * sample_map(maps, filtering, last, seen.xy - second.xy * down, level);
+    let sky = first.z * sample_blurred(maps, filtering, last, seen.xy - first.xy * down, soft)
+        + second.z * sample_blurred(maps, filtering, last, seen.xy - second.xy * down, soft);
 #else
-    let sky = sample_map(maps, filtering, last, seen.xy, level);
+    let sky = sample_blurred(maps, filtering, last, seen.xy, soft);
 #endif
     light = behind(light, vec4(at_angle(tour, sky, was, grazing).rgb, 1.0));
     return light.color;
