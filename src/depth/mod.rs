@@ -23,6 +23,7 @@ mod sky;
 pub(crate) mod tests;
 mod trust;
 mod view;
+mod visibility;
 mod vote;
 
 pub use bands::{BandOptions, DepthBand, bands};
@@ -117,7 +118,8 @@ pub fn measure(
     let shifts =
         match_all(&view, below, &|share| progress(0.05 + 0.9 * share)).ok_or(DepthError::Cancelled)?;
     let (leveled, is_sky) = horizon::horizon(&view, &shifts, known / scale);
-    let shifts = vote::vote(&view, &shifts);
+    let voted = vote::vote(&view, &shifts);
+    let shifts = visibility::without_hiding(&view, &shifts, voted);
     let horizon = HorizonOffset {
         offset_px: leveled.offset_px * scale,
         deviation_px: leveled.deviation_px * scale,
