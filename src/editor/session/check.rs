@@ -35,6 +35,8 @@ pub(super) struct Checked {
 struct Looks {
     /// Without anything that moves.
     tour: TourFile,
+    /// Which objects move, however they do.
+    movers: Vec<bool>,
     masks: Vec<Arc<Mask>>,
     picture: Arc<DecodedPicture>,
 }
@@ -42,13 +44,14 @@ struct Looks {
 impl Looks {
     fn of(draft: &Draft, picture: &Arc<DecodedPicture>) -> Self {
         let mut tour = draft.tour.clone();
+        let movers = tour.movers();
         (tour.wind, tour.waves, tour.path) = Default::default();
         tour.objects.iter_mut().for_each(|object| object.motion = Motion::Static);
         if let Some(sky) = &mut tour.sky {
             sky.drift = None;
         }
         let masks = draft.masks.iter().map(|(_, mask)| Arc::clone(mask)).collect();
-        Self { tour, masks, picture: Arc::clone(picture) }
+        Self { tour, movers, masks, picture: Arc::clone(picture) }
     }
 }
 
@@ -56,7 +59,8 @@ impl PartialEq for Looks {
     fn eq(&self, other: &Self) -> bool {
         let same_masks = self.masks.len() == other.masks.len()
             && self.masks.iter().zip(&other.masks).all(|(a, b)| Arc::ptr_eq(a, b));
-        same_masks && Arc::ptr_eq(&self.picture, &other.picture) && self.tour == other.tour
+        let same_movers = self.movers == other.movers;
+        same_masks && same_movers && Arc::ptr_eq(&self.picture, &other.picture) && self.tour == other.tour
     }
 }
 
