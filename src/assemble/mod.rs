@@ -136,12 +136,14 @@ impl PlacedTour {
             Region::Polygon(_) => Edge::Outlined,
             Region::Mask(_) => Edge::Mask,
         });
+        let moving = source.tour.movers().into_iter();
         TourMasks {
             water: source.water.as_ref(),
             ground: self.level_ground.as_ref(),
             backdrops: backdrops::masks(source, &self.scene),
             billboards: source.objects.iter().chain(&self.banks).collect(),
             edges: edges.chain(self.banks.iter().map(|_| Edge::Exact)).collect(),
+            moving: moving.chain(self.banks.iter().map(|_| false)).collect(),
         }
     }
 }

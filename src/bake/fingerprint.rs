@@ -27,8 +27,8 @@ impl std::fmt::Debug for Fingerprint {
 
 /// The fingerprint of a tour as its file says it; `read` gets a path relative to the tour's folder.
 ///
-/// Wind, waves, the camera's path and motions are left out: a tour need not be baked again when only they
-/// change.
+/// Wind, waves, the camera's path and how objects move are left out: a tour need not be baked again when only they
+/// change. Which objects move at all is not.
 ///
 /// # Errors
 ///
@@ -43,6 +43,7 @@ pub fn fingerprint(
     parts.add(env!("CARGO_PKG_VERSION").as_bytes());
     parts.add_value(options)?;
     parts.add_value(&tour.still())?;
+    parts.add_value(&tour.movers())?;
     for (_, file) in tour.map_files() {
         let bytes = read(&file).map_err(|error| format!("{file} cannot be read: {error}"))?;
         parts.add(file.as_str().as_bytes());

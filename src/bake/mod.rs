@@ -59,7 +59,7 @@ pub struct Baked {
 
 impl Baked {
     /// The same maps for the tour as its file says it now, which must have the same [`fingerprint()`]: wind,
-    /// waves, path and motions are not part of that, and may have changed since.
+    /// waves, path and how objects move are not part of that, and may have changed since.
     #[must_use]
     pub fn with_tour(mut self, tour: &Tour) -> Self {
         self.tour = tour.in_pixels_of(self.uncropped_size);

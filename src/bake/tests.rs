@@ -13,8 +13,8 @@ use crate::maps::{Layer, MapOptions};
 use crate::picture::{PicturePoint, PngPixels, encode_png};
 use crate::solve::SolveError;
 use crate::tour::{
-    BackgroundPlace, Band, CameraPath, Crop, Document, FocalLength, Keyframe, Motion, Object, Recorded,
-    ReflectionPair, Region, RelativePath, Scale, Sky, Support, TourFile, WaterArea,
+    BackgroundPlace, Band, CameraPath, Crop, Document, Floating, FocalLength, Keyframe, Motion, Object,
+    Recorded, ReflectionPair, Region, RelativePath, Scale, Sky, Support, TourFile, WaterArea,
 };
 
 /// Of the picture before the crop, pixels.
@@ -267,9 +267,15 @@ fn the_fingerprint_follows_what_maps_depend_on() {
     };
     assert!(same(&|_| ()));
     assert!(same(&|tour| tour.wind.speed += 1.0));
-    assert!(same(&|tour| {
-        tour.objects[0].motion = Motion::Recorded(Recorded { poses: "poses.csv".to_owned(), looped: false });
-    }));
+    let moving = |motion: Motion<String>| {
+        let mut changed = document();
+        changed.objects[0].motion = motion;
+        of(changed, &MapOptions::PREVIEW, &files())
+    };
+    let floating = moving(Motion::Floating(Floating::of_draft(0.2)));
+    assert_ne!(floating, made().fingerprint, "what moves has a rim in the maps");
+    let recorded = Motion::Recorded(Recorded { poses: "poses.csv".to_owned(), looped: false });
+    assert_eq!(moving(recorded), floating, "maps do not ask how it moves");
     assert!(same(&|tour| tour.objects[0].turns_to_camera = true));
     assert!(!same(&|tour| tour.water.as_mut().unwrap().pairs[0].point.0.x += 0.25));
     assert!(!same(&|tour| tour.objects[0].contact[0].0.x -= 0.5));

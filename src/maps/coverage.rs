@@ -30,6 +30,8 @@ pub struct TourMasks<'a> {
     pub billboards: Vec<&'a Mask>,
     /// What is known of each billboard's edge.
     pub edges: Vec<Edge>,
+    /// Whether each billboard can leave its place.
+    pub moving: Vec<bool>,
 }
 
 /// What is known of a mask's edge.

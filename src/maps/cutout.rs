@@ -16,7 +16,7 @@ use crate::scene::TourScene;
 
 /// How far the true edge may lie from an outline drawn by hand, and from a mask that is all or nothing, in pixels per
 /// pixel of picture width; measured on outlines with a known truth.
-const OUTLINED: f32 = 2.0 / 960.0;
+pub(super) const OUTLINED: f32 = 2.0 / 960.0;
 const HARD: f32 = 1.0 / 960.0;
 
 /// A mask whose edge has fewer partly covered pixels than this share of its length is all or nothing.

@@ -18,6 +18,7 @@ mod mipmaps;
 mod mirror;
 mod paper;
 mod reflection;
+mod rim;
 mod seam;
 mod softness;
 mod texture;
@@ -138,8 +139,9 @@ impl Maps {
         let mut coverage = Coverage::of(scene, masks);
         step(0.1, "what the water mirrors")?;
         let mut zones = zones::zones(scene, &coverage);
-        let owner = bodies::take_in_bodies(scene, picture, &mut coverage, &mut zones);
+        let mut owner = bodies::take_in_bodies(scene, picture, &mut coverage, &mut zones);
         let tint = reflection::fit_water(scene, picture, &coverage, &owner);
+        rim::give_rims(scene, picture, masks, &tint, &coverage, &mut zones, &mut owner);
         let count = scene.components.len();
         let input = HoleInput {
             scene,

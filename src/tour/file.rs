@@ -111,8 +111,15 @@ impl<P> Document<P> {
         files
     }
 
+    /// Which objects can leave their place, however they move, in the document's order. What only a game moves is not known
+    /// here.
+    #[must_use]
+    pub fn movers(&self) -> Vec<bool> {
+        self.objects.iter().map(|object| !object.motion.is_static()).collect()
+    }
+
     /// The document without what only moves it (wind, waves, path, drift, motions, turning): all that maps
-    /// depend on.
+    /// depend on, besides the [movers](Self::movers).
     #[must_use]
     pub fn still(&self) -> Self
     where

@@ -35,6 +35,8 @@ pub(super) struct Checked {
 struct Looks {
     /// Without anything that moves.
     tour: TourFile,
+    /// Which objects move, however they do.
+    movers: Vec<bool>,
     /// Only to tell whether they are the same: a mask that is held is copied when it is painted on.
     masks: Vec<Weak<Mask>>,
     picture: Arc<DecodedPicture>,
@@ -43,13 +45,14 @@ struct Looks {
 impl Looks {
     fn of(draft: &Draft, picture: &Arc<DecodedPicture>) -> Self {
         let mut tour = draft.tour.clone();
+        let movers = tour.movers();
         (tour.wind, tour.waves, tour.path) = Default::default();
         tour.objects.iter_mut().for_each(|object| object.motion = Motion::Static);
         if let Some(sky) = &mut tour.sky {
             sky.drift = None;
         }
         let masks = draft.masks.iter().map(|(_, mask)| Arc::downgrade(mask)).collect();
-        Self { tour, masks, picture: Arc::clone(picture) }
+        Self { tour, movers, masks, picture: Arc::clone(picture) }
     }
 }
 
@@ -57,7 +60,8 @@ impl PartialEq for Looks {
     fn eq(&self, other: &Self) -> bool {
         let same_masks = self.masks.len() == other.masks.len()
             && self.masks.iter().zip(&other.masks).all(|(a, b)| Weak::ptr_eq(a, b));
-        same_masks && Arc::ptr_eq(&self.picture, &other.picture) && self.tour == other.tour
+        let same_movers = self.movers == other.movers;
+        same_masks && same_movers && Arc::ptr_eq(&self.picture, &other.picture) && self.tour == other.tour
     }
 }
 
