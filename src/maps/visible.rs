@@ -7,7 +7,7 @@ use glam::{IVec2, UVec2};
 
 use super::Grid;
 use super::beyond::{folded, frame};
-use super::coverage::{TourMasks, is_above_contact};
+use super::coverage::{ALONE, TourMasks, is_above_contact};
 use super::fill::membrane;
 use crate::picture::Mask;
 use crate::picture::{PicturePoint, distances};
@@ -141,7 +141,13 @@ pub(super) fn completed(
                 behind(own, &hidden, own.origin, own.size, |pixel| is_above_contact(scene, index, pixel))
             }
             Role::Ground => behind(own, &hidden, IVec2::ZERO, size, |pixel| meets(scene, index, pixel)),
-            Role::Band | Role::LastLayer => {
+            Role::Band => {
+                let mut whole =
+                    behind(own, &hidden, IVec2::ZERO, size, |pixel| is_above_contact(scene, index, pixel));
+                stand(&mut whole, &hidden, |pixel| is_above_contact(scene, index, pixel));
+                whole
+            }
+            Role::LastLayer => {
                 behind(own, &hidden, IVec2::ZERO, size, |pixel| is_above_contact(scene, index, pixel))
             }
         };
@@ -205,6 +211,23 @@ fn behind(
     })
 }
 
+/// Lets a band stand on its contact line: where it is hidden, what is guessed of it goes down to `is_above`'s end.
+fn stand(whole: &mut Grid<u8>, hidden: &Grid<u8>, is_above: impl Fn(IVec2) -> bool) {
+    let (low, high) = (whole.origin, whole.origin + whole.size.as_ivec2());
+    for x in low.x..high.x {
+        let mut above = 0;
+        for y in low.y..high.y {
+            let pixel = IVec2::new(x, y);
+            let Some(cell) = whole.index(pixel) else { continue };
+            let is_hidden = hidden.get(pixel).is_some_and(|hidden| hidden >= ALONE);
+            if is_hidden && whole.cells[cell] < above && is_above(pixel) {
+                whole.cells[cell] = above;
+            }
+            above = whole.cells[cell];
+        }
+    }
+}
+
 /// A band's coverage across the whole frame: folded in from the sides, its uppermost row prolonged upwards.
 fn across(inside: &Grid<u8>, picture: UVec2) -> Grid<u8> {
     let (low, high) = frame(picture);
@@ -266,4 +289,26 @@ fn boxed(mask: &Mask) -> Grid<u8> {
         let within = pixel.cmpge(IVec2::ZERO).all() && pixel.cmplt(inside).all();
         if within { mask.without_dust(pixel.x as u32, pixel.y as u32) } else { 0 }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_guessed_of_a_band_goes_down_to_its_foot_where_it_is_hidden() {
+        let column =
+            |cells: [u8; 6]| Grid { origin: IVec2::ZERO, size: UVec2::new(1, 6), cells: cells.to_vec() };
+        let stood = |cells: [u8; 6], hidden: [u8; 6]| {
+            let mut whole = column(cells);
+            stand(&mut whole, &column(hidden), |pixel| pixel.y < 5);
+            whole.cells
+        };
+        assert_eq!(stood([0, 255, 200, 0, 0, 0], [0, 0, 255, 255, 255, 255]), [0, 255, 200, 200, 200, 0]);
+        assert_eq!(
+            stood([0, 255, 200, 0, 0, 0], [0, 0, 255, 0, 255, 255]),
+            [0, 255, 200, 0, 0, 0],
+            "seen: free"
+        );
+    }
 }

@@ -75,13 +75,17 @@ fn is_in_use(folder: &Path) -> bool {
                 && match fs::read(entry.path()) {
                     Ok(bytes) => {
                         let text = String::from_utf8_lossy(&bytes);
-                        // A text may spell any letter by its number.
-                        is_named_in(&text, name) || (is_tour && above == 0 && text.contains('\\'))
+                        is_named_in(&text, name) || (is_tour && above == 0 && spells_by_number(&text))
                     }
                     Err(_) => true,
                 }
         })
     })
+}
+
+/// Whether a text spells letters by their numbers, so that it may name what it does not show.
+fn spells_by_number(text: &str) -> bool {
+    text.contains("\\u") || text.contains("\\x")
 }
 
 /// Whether a text names something in a folder. Some file systems do not tell letters of different case apart.
