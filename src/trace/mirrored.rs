@@ -178,3 +178,32 @@ impl Reference<'_> {
         [r, g, b, alpha]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blur_spreads_upright_alone_and_weighs_by_coverage() {
+        let blur = Blur { level: 2.0, upright: 3.0 };
+        let at = PicturePoint::new(10.0, 20.0);
+        let off = |point: PicturePoint| point.0 - at.0;
+        // Means of x, of y and of the square of y where all is covered: the mip level makes up for what looks leave out.
+        let [x, y, squares, coverage] = blur.sample(at, |point, level| {
+            assert_eq!(level, 2.0);
+            let off = off(point).as_vec2();
+            [off.x, off.y, off.y * off.y, 1.0]
+        });
+        assert!(x == 0.0 && y.abs() < 1e-6 && (coverage - 1.0).abs() < 1e-6, "{x} {y} {coverage}");
+        assert!((0.8 * 9.0..9.0).contains(&squares), "variance {squares} px² of 9");
+        // Above the place all is covered and bright, below nothing: dark colors of nothing do not count.
+        let [light, .., coverage] =
+            blur.sample(at, |point, _| if off(point).y < 0.0 { [1.0; 4] } else { [0.0; 4] });
+        assert!((light - 1.0).abs() < 1e-6 && (0.2..0.5).contains(&coverage), "{light} {coverage}");
+        // Still water looks once.
+        let still = Blur { level: 0.0, upright: 0.0 };
+        let texel = [0.3, 0.2, 0.1, 0.5];
+        let found = still.sample(at, |_, _| texel);
+        assert!((0..4).all(|c| (found[c] - texel[c]).abs() < 1e-7), "{found:?}");
+    }
+}
