@@ -68,13 +68,6 @@ pub enum Request {
         /// Where the pointer is.
         to: PicturePoint,
     },
-    /// Grow a region from a stroke, or from a click (one point), and set it.
-    GrowRegion {
-        /// Which region.
-        at: RegionAt,
-        /// Where the user said that it is.
-        stroke: BrushStroke,
-    },
     /// Find an object's outline inside a box (`GrabCut`) and set it.
     RefineBox {
         /// Which object.
@@ -82,10 +75,11 @@ pub enum Request {
         /// Two opposite corners.
         corners: [PicturePoint; 2],
     },
-    /// Mend an object's outline by a stroke inside or outside of it (`GrabCut`).
+    /// Find or mend an outline by a stroke, or a click (one point), inside or outside of it: a region grows from strokes
+    /// inside until one outside says what it is not; then, and for objects, strokes are cut apart (`GrabCut`).
     RefineStroke {
-        /// Which object.
-        object: usize,
+        /// Whose outline.
+        at: RegionAt,
         /// What was drawn.
         stroke: BrushStroke,
     },

@@ -43,5 +43,9 @@ pub(super) fn act(ui: &Ui, studio: &mut Studio, has_draft: bool, out: &mut Out) 
     if !studio.pointer_was_over_tour && ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::F)) {
         studio.canvas.fit();
     }
+    let switches = studio.canvas.tool.has_width() && !studio.pointer_was_over_tour;
+    if switches && ui.input_mut(|i| i.consume_key(Modifiers::NONE, Key::X)) {
+        studio.brush.inside = !studio.brush.inside;
+    }
     requests
 }

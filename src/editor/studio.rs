@@ -132,5 +132,7 @@ impl Studio {
         let tool = if self.canvas.tool == tool { Tool::Select } else { tool };
         self.canvas.let_go();
         self.canvas.tool = tool;
+        // Strokes begin on what is meant.
+        self.brush.inside = true;
     }
 }

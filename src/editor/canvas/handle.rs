@@ -146,6 +146,12 @@ pub(crate) fn region_name(at: RegionAt, work: &Work<'_>) -> String {
     }
 }
 
+/// Whether a region has any shape.
+pub(crate) fn is_drawn(at: RegionAt, work: &Work<'_>) -> bool {
+    let region = at.get(work.tour);
+    region.is_some_and(|region| !matches!(region, Region::Polygon(corners) if corners.is_empty()))
+}
+
 /// The lines with corners that belong to a step.
 pub(crate) fn lines(step: Step, object: Option<usize>, work: &Work<'_>) -> Vec<LineAt> {
     let bands = 0..work.tour.background.bands.len();

@@ -16,7 +16,7 @@ mod tool;
 pub use handle::Handle;
 pub use tool::Tool;
 
-pub(super) use handle::region_name;
+pub(super) use handle::{is_drawn, region_name};
 
 use glam::DVec2;
 

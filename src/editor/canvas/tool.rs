@@ -6,6 +6,7 @@ use crate::tour::{BackgroundPlace, Band, Course, Motion, Region, Scale};
 
 use super::super::work::Work;
 use super::super::{Brush, BrushStroke, Request};
+use super::handle::is_drawn;
 use super::make::{free_name, from_left, new_object, new_pair};
 
 /// What the pointer does on the picture.
@@ -34,10 +35,8 @@ pub enum Tool {
     Pair,
     /// Draws a box around this object, for its outline to be found in it.
     Box(usize),
-    /// Draws strokes that say what is inside or outside of this object.
-    Stroke(usize),
-    /// Draws a stroke from which a region is grown.
-    Grow(RegionAt),
+    /// Draws strokes that say what is inside or outside of a region or an object.
+    Stroke(RegionAt),
     /// Paints a region's mask.
     Brush(RegionAt),
     /// Draws this boat's course on the water.
@@ -67,7 +66,7 @@ impl Tool {
             Self::Horizon | Self::Length(_) | Self::Contact(_) | Self::Pair | Self::Box(_) => Takes::Two,
             Self::Region(_) | Self::NewObject | Self::NewBand => Takes::Many { least: 3 },
             Self::BackgroundContact(_) | Self::Course(_) => Takes::Many { least: 2 },
-            Self::Stroke(_) | Self::Grow(_) => Takes::Stroke,
+            Self::Stroke(_) => Takes::Stroke,
             Self::Brush(_) => Takes::Pieces,
         })
     }
@@ -78,8 +77,8 @@ impl Tool {
     }
 
     /// Whether it draws strokes with the brush's width.
-    pub(super) fn has_width(self) -> bool {
-        matches!(self, Self::Stroke(_) | Self::Grow(_) | Self::Brush(_))
+    pub(crate) fn has_width(self) -> bool {
+        matches!(self, Self::Stroke(_) | Self::Brush(_))
     }
 
     /// Whether it stays in the hand after it was used.
@@ -100,8 +99,8 @@ impl Tool {
             Self::BackgroundContact(_) => t.mark.hint_background,
             Self::Pair => t.mark.hint_pair,
             Self::Box(_) => t.mark.hint_box,
+            Self::Stroke(at) if !is_drawn(at, work) => t.mark.hint_grow,
             Self::Stroke(_) => t.mark.hint_stroke,
-            Self::Grow(_) => t.mark.hint_grow,
             Self::Brush(_) => t.mark.hint_brush,
             Self::Course(_) => t.mark.hint_course,
         }
@@ -149,8 +148,7 @@ impl Tool {
             }
             Self::Pair => new_pair(two()?, work),
             Self::Box(object) => return Some(Request::RefineBox { object, corners: two()? }),
-            Self::Stroke(object) => return Some(Request::RefineStroke { object, stroke: stroke()? }),
-            Self::Grow(at) => return Some(Request::GrowRegion { at, stroke: stroke()? }),
+            Self::Stroke(at) => return Some(Request::RefineStroke { at, stroke: stroke()? }),
             Self::Brush(at) => {
                 return Some(Request::Paint { at, stroke: stroke()?, hardness: brush.hardness });
             }

@@ -3,7 +3,7 @@
 use crate::tour::Region;
 use crate::tour::edit::{Edit, LineAt, RegionAt};
 
-use super::super::canvas::{Tool, region_name};
+use super::super::canvas::{Tool, is_drawn, region_name};
 use super::super::egui::Ui;
 use super::super::field::{self, Number};
 use super::super::text::with;
@@ -15,16 +15,18 @@ use super::tool_button;
 pub(super) fn region_ui(ui: &mut Ui, at: RegionAt, studio: &mut Studio, work: &Work<'_>, out: &mut Out) {
     let t = work.text;
     ui.horizontal_wrapped(|ui| {
-        let region = at.get(work.tour);
-        let is_drawn = region.is_some_and(|region| !is_empty(region));
+        let is_drawn = is_drawn(at, work);
         let name = if is_drawn { t.region.draw_again } else { t.region.draw };
         tool_button(ui, studio, Tool::Region(at), name);
         match at {
             RegionAt::Object(object) => {
                 tool_button(ui, studio, Tool::Box(object), t.region.boxed);
-                tool_button(ui, studio, Tool::Stroke(object), t.region.strokes);
+                tool_button(ui, studio, Tool::Stroke(at), t.region.strokes);
             }
-            _ => tool_button(ui, studio, Tool::Grow(at), t.region.grow),
+            _ => {
+                let name = if is_drawn { t.region.strokes } else { t.region.grow };
+                tool_button(ui, studio, Tool::Stroke(at), name);
+            }
         }
         if is_drawn {
             tool_button(ui, studio, Tool::Brush(at), t.region.brush);
@@ -53,8 +55,7 @@ fn tool_settings_ui(ui: &mut Ui, at: RegionAt, studio: &mut Studio, work: &Work<
     let t = work.text;
     match studio.canvas.tool {
         Tool::Region(held) if held == at => live_wire_ui(ui, studio, work),
-        Tool::Grow(held) | Tool::Brush(held) if held == at => brush_ui(ui, studio, work),
-        Tool::Stroke(object) if at == RegionAt::Object(object) => brush_ui(ui, studio, work),
+        Tool::Stroke(held) | Tool::Brush(held) if held == at => brush_ui(ui, studio, work),
         Tool::Box(object) if at == RegionAt::Object(object) => {
             ui.weak(with(t.region.box_around, region_name(at, work)));
         }
@@ -72,14 +73,12 @@ pub(super) fn live_wire_ui(ui: &mut Ui, studio: &mut Studio, work: &Work<'_>) {
 fn brush_ui(ui: &mut Ui, studio: &mut Studio, work: &Work<'_>) {
     let t = work.text;
     let is_brush = matches!(studio.canvas.tool, Tool::Brush(_));
-    if !matches!(studio.canvas.tool, Tool::Grow(_)) {
-        let (inside, outside) =
-            if is_brush { (t.region.paint, t.region.erase) } else { (t.region.inside, t.region.outside) };
-        ui.horizontal(|ui| {
-            ui.radio_value(&mut studio.brush.inside, true, inside);
-            ui.radio_value(&mut studio.brush.inside, false, outside);
-        });
-    }
+    let (inside, outside) =
+        if is_brush { (t.region.paint, t.region.erase) } else { (t.region.inside, t.region.outside) };
+    ui.horizontal(|ui| {
+        ui.radio_value(&mut studio.brush.inside, true, inside);
+        ui.radio_value(&mut studio.brush.inside, false, outside);
+    });
     let most = (f64::from(work.size.max_element()) / 10.0).max(20.0);
     let radius = Number::new(t.region.radius, 0.5..=most).logarithmic().unit(" px").decimals(1);
     if let Some(wanted) = radius.slide(ui, studio.brush.radius) {
@@ -90,10 +89,6 @@ fn brush_ui(ui: &mut Ui, studio: &mut Studio, work: &Work<'_>) {
     {
         studio.brush.hardness = wanted;
     }
-}
-
-fn is_empty(region: &Region<String>) -> bool {
-    matches!(region, Region::Polygon(corners) if corners.is_empty())
 }
 
 /// Whether a line has corners.

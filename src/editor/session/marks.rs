@@ -1,4 +1,4 @@
-//! Marks that the machine helps to make: regions grown, strokes painted, ways along edges.
+//! Marks that the machine helps to make: strokes painted, ways along edges, contact lines.
 
 use std::sync::Arc;
 
@@ -7,9 +7,7 @@ use glam::UVec2;
 use super::Session;
 use crate::editor::BrushStroke;
 use crate::picture::{DecodedPicture, Mask, Picture, PicturePoint};
-use crate::suggest::outline::{
-    Brush, BrushMode, GrowBound, GrowOptions, LiveWire, Side, Stroke, contact_line, grow, simplified_line,
-};
+use crate::suggest::outline::{Brush, BrushMode, LiveWire, Side, Stroke, contact_line, simplified_line};
 use crate::tour::Region;
 use crate::tour::edit::{Edit, PackedMask, RegionAt};
 
@@ -80,48 +78,6 @@ impl Session {
             Edit::Mask { name, mask: Some(PackedMask::new(mask)) },
             Edit::Region { at, region },
         ]));
-    }
-
-    /// Grows a region from a stroke, and sets it; what was there before stays in it.
-    pub(super) fn grow_region(&mut self, at: RegionAt, stroke: &BrushStroke) {
-        let Some(picture) = self.picture() else { return };
-        let scale = self.scale(&picture.picture);
-        let (stroke, bound) = (scaled(stroke, scale), self.bound_of(at, scale));
-        let named = self.owner_of(at);
-        let title = self.studio.language.text().session.growing;
-        self.start(title, move |_| {
-            let options = GrowOptions { tolerance: 1.0, bound };
-            let grown = grow(&picture.picture, &stroke, options);
-            Box::new(move |session: &mut Self| match grown {
-                // What it was for may have gone, or have another number by now.
-                Ok(_) if session.owner_of(at) != named => {}
-                Ok(grown) => {
-                    let earlier = session.mask_of(at, grown.size(), scale);
-                    session.set_mask(at, &joined(earlier, &grown, stroke.side));
-                }
-                Err(error) => session.fail(&error),
-            })
-        });
-    }
-
-    /// The name of the band or object whose region it is.
-    fn owner_of(&self, at: RegionAt) -> Option<String> {
-        let tour = self.desk.as_ref()?.tour();
-        match at {
-            RegionAt::Band(index) => tour.background.bands.get(index).map(|band| band.name.clone()),
-            RegionAt::Object(index) => tour.objects.get(index).map(|object| object.name.clone()),
-            RegionAt::Water | RegionAt::Ground | RegionAt::Sky => None,
-        }
-    }
-
-    /// The side of the horizon that a region stays on.
-    fn bound_of(&self, at: RegionAt, scale: f64) -> Option<GrowBound> {
-        let line = self.desk.as_ref()?.tour().camera.horizon?.map(|end| PicturePoint(end.0 * scale));
-        match at {
-            RegionAt::Water | RegionAt::Ground => Some(GrowBound { line, is_above: false }),
-            RegionAt::Sky => Some(GrowBound { line, is_above: true }),
-            RegionAt::Band(_) | RegionAt::Object(_) => None,
-        }
     }
 
     pub(super) fn set_contact(&mut self, object: usize, mask: &Mask, scale: f64) {
@@ -207,31 +163,9 @@ pub(super) fn scaled(stroke: &BrushStroke, scale: f64) -> Stroke {
     Stroke { points, radius: stroke.radius * scale, side }
 }
 
-/// A region with what was grown: added, or taken away.
-fn joined(earlier: Option<Mask>, grown: &Mask, side: Side) -> Mask {
-    let Some(earlier) = earlier.filter(|earlier| earlier.size() == grown.size()) else {
-        return grown.clone();
-    };
-    let both = earlier.values().iter().zip(grown.values()).map(|(&old, &new)| match side {
-        Side::Inside => old.max(new),
-        Side::Outside => old.min(255 - new),
-    });
-    // As many as before.
-    Mask::new(grown.size(), both.collect()).unwrap_or(earlier)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn what_is_grown_is_added_or_taken_away() {
-        let size = UVec2::new(2, 1);
-        let [old, new] = [[200, 0], [100, 255]].map(|values| Mask::new(size, values.into()).unwrap());
-        assert_eq!(joined(Some(old.clone()), &new, Side::Inside).values(), [200, 255]);
-        assert_eq!(joined(Some(old), &new, Side::Outside).values(), [155, 0]);
-        assert_eq!(joined(None, &new, Side::Inside).values(), [100, 255]);
-    }
 
     #[test]
     fn strokes_come_in_the_file_s_pixels() {

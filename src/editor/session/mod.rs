@@ -31,7 +31,7 @@ use super::{
 };
 use crate::plugin::PictureTourSystems;
 use crate::tour::Tour;
-use crate::tour::edit::Edit;
+use crate::tour::edit::{Edit, RegionAt};
 use crate::tour::edit::desk::{Desk, Recent, Recovered, Replace, Version};
 
 /// Adds the studio to an app that has Bevy's default plugins, [`PictureTourPlugin`](crate::plugin::PictureTourPlugin) and
@@ -217,9 +217,10 @@ impl Session {
             Request::Suggest(what) => self.suggest(what),
             Request::DropSuggestion(id) => self.suggestions.retain(|suggestion| suggestion.id != id),
             Request::Trace { from, to } => self.trace(from, to),
-            Request::GrowRegion { at, stroke } => self.grow_region(at, &stroke),
-            Request::RefineBox { object, corners } => self.refine(object, Some(corners), None),
-            Request::RefineStroke { object, stroke } => self.refine(object, None, Some(stroke)),
+            Request::RefineBox { object, corners } => {
+                self.refine(RegionAt::Object(object), Some(corners), None);
+            }
+            Request::RefineStroke { at, stroke } => self.refine(at, None, Some(stroke)),
             Request::Paint { at, stroke, hardness } => self.paint(at, &stroke, hardness),
             other => self.carry_out_without_desk(other),
         }

@@ -270,13 +270,19 @@ fn a_click_finds_what_a_mask_of_another_size_covers() {
 #[test]
 fn strokes_and_boxes_ask_for_the_machine() {
     let mut harness = small(Bench::at(Step::Water));
-    press(&mut harness, "Grow from a stroke");
+    press(&mut harness, "Mend by strokes");
     drag(&mut harness, (300.0, 400.0), (400.0, 450.0));
-    let Some(Request::GrowRegion { at: RegionAt::Water, stroke }) = harness.state().log.first() else {
-        panic!("{:?}", harness.state().log);
-    };
-    assert!(stroke.points.len() >= 3, "{stroke:?}");
-    close(stroke.points[0], (300.0, 400.0), 0.5);
+    harness.key_press(Key::X);
+    harness.run_steps(2);
+    drag(&mut harness, (300.0, 500.0), (400.0, 500.0));
+    let log = &harness.state().log;
+    let [on, beside] = [0, 1].map(|i| match log.get(i) {
+        Some(Request::RefineStroke { at: RegionAt::Water, stroke }) => stroke,
+        other => panic!("{other:?}"),
+    });
+    assert!(on.points.len() >= 3, "{on:?}");
+    close(on.points[0], (300.0, 400.0), 0.5);
+    assert!(on.inside && !beside.inside, "X switches the side");
 
     let mut harness = small(Bench::at(Step::Objects));
     click(&mut harness, (650.0, 390.0));

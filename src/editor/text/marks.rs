@@ -40,9 +40,9 @@ texts! {
         hint_background: "Click along the line where it meets the water; Enter ends.",
         hint_pair: "Click a point, then its reflection; or drag from one to the other. Escape ends.",
         hint_box: "Drag a box around it.",
-        hint_stroke: "Draw strokes inside or outside of it.",
+        hint_stroke: "Draw strokes: inside on what belongs to it, outside on what does not; X switches.",
         hint_grow: "Click it, or draw a stroke on it.",
-        hint_brush: "Paint what belongs to it, erase what does not.",
+        hint_brush: "Paint what belongs to it, erase what does not; X switches.",
         hint_course: "Click the boat's way on the water; Enter ends.",
     }
 }

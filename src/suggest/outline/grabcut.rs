@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::grid::{Grid, Weights};
 use super::guided::upsampled;
 use super::hints::ObjectHints;
+use super::mend::mended;
 use super::mixture::Mixture;
 use super::parts::{fill_holes, parts};
 use super::{OutlineError, Side};
@@ -99,7 +100,10 @@ pub fn grab_cut(
         return Err(OutlineError::NothingStandsOut);
     }
     step(0.95, "following the border")?;
-    let mask = upsampled(picture, &fine.scaled, &inside);
+    let mask = match hints.earlier {
+        Some(earlier) if !hints.strokes.is_empty() => mended(picture, &fine, earlier, &inside),
+        _ => upsampled(picture, &fine.scaled, &inside),
+    };
     step(1.0, "done")?;
     Ok(Cutout { mask, energies, rect, factor: fine.scaled.factor })
 }

@@ -4,7 +4,7 @@ use glam::{DVec2, UVec2};
 
 use super::*;
 use crate::picture::PicturePoint;
-use crate::suggest::outline::Stroke;
+use crate::suggest::outline::{Bound, Stroke};
 
 /// A red-brown disc with an ochre stripe on a noisy blue-green ground, antialiased.
 fn picture(size: UVec2) -> Picture {
@@ -88,6 +88,46 @@ fn a_rough_mask_is_mended_and_a_stroke_always_holds() {
         [Stroke::outside(vec![PicturePoint::new(100.0, 90.0), PicturePoint::new(120.0, 90.0)], 6.0)];
     let cut = grab_cut(&picture(SIZE), &ObjectHints { strokes: &strokes, ..hints }, &|_, _| true).unwrap();
     assert_eq!((cut.mask.get(110, 90), cut.mask.get(110, 60)), (0, 255));
+}
+
+#[test]
+fn a_stroke_changes_only_what_it_touches() {
+    // Two squares that are not the disc: the stroke speaks of the left one.
+    let square = |x: f64| {
+        [(x, 10.0), (x + 30.0, 10.0), (x + 30.0, 40.0), (x, 40.0)].map(|(x, y)| PicturePoint::new(x, y))
+    };
+    let masks = [square(10.0), square(180.0)].map(|corners| Mask::from_polygon(SIZE, &corners).unwrap());
+    let boxed = ObjectHints { corners: loose_box(SIZE), ..Default::default() };
+    let disc = grab_cut(&picture(SIZE), &boxed, &|_, _| true).unwrap().mask;
+    let values = disc.values().iter().enumerate();
+    let values = values.map(|(i, &value)| value.max(masks[0].values()[i]).max(masks[1].values()[i]));
+    let earlier = Mask::new(SIZE, values.collect()).unwrap();
+    let strokes = [Stroke::outside(vec![PicturePoint::new(18.0, 25.0), PicturePoint::new(32.0, 25.0)], 4.0)];
+    let hints = ObjectHints { strokes: &strokes, earlier: Some(&earlier), ..Default::default() };
+    let cut = grab_cut(&picture(SIZE), &hints, &|_, _| true).unwrap();
+    for (x, y, pixel) in (0..SIZE.y).flat_map(|y| (0..SIZE.x).map(move |x| (x, y, y * SIZE.x + x))) {
+        let (then, now) = (earlier.values()[pixel as usize], cut.mask.get(x, y));
+        if x < 60 && y < 60 {
+            assert!(now < 10, "{now} is left at {x}, {y}");
+        } else {
+            assert_eq!(then, now, "at {x}, {y}");
+        }
+    }
+}
+
+#[test]
+fn nothing_crosses_a_bound() {
+    let at = |x: f64, y: f64| PicturePoint::new(x, y);
+    let strokes = [Stroke::inside(vec![at(110.0, 94.0), at(110.0, 130.0)], 4.0)];
+    let cut = |y: f64, is_above| {
+        let bound = Some(Bound { line: [at(0.0, y), at(1.0, y)], is_above });
+        let hints = ObjectHints { strokes: &strokes, bound, ..Default::default() };
+        grab_cut(&picture(SIZE), &hints, &|_, _| true)
+    };
+    let mask = cut(90.0, false).unwrap().mask;
+    assert!((0..SIZE.x).all(|x| mask.get(x, 89) == 0), "the line is crossed");
+    assert_eq!((mask.get(90, 92), mask.get(110, 125), mask.get(20, 125)), (255, 255, 0));
+    assert_eq!(cut(-5.0, true), Err(OutlineError::NothingMarked), "nothing of the picture is on that side");
 }
 
 #[test]

@@ -13,8 +13,8 @@ use super::guided::upsampled;
 use super::parts::fill_holes;
 use super::scaled::Scaled;
 use super::stroke::for_each_near;
-use super::{OutlineError, Stroke};
-use crate::picture::{Mask, Picture, PicturePoint, PixelRect};
+use super::{Bound, OutlineError, Stroke};
+use crate::picture::{Mask, Picture, PixelRect};
 
 /// Most cells that are looked at.
 const MOST_CELLS: u32 = 1 << 19;
@@ -47,26 +47,7 @@ pub struct GrowOptions {
     pub tolerance: f64,
     /// A line that the region does not cross, and the side that it stays on: water and ground stay below the horizon
     /// (better: the waterline), sky above it. A line of points that are not finite or fall together is none.
-    pub bound: Option<GrowBound>,
-}
-
-/// A side of a line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GrowBound {
-    /// Two points of the line.
-    pub line: [PicturePoint; 2],
-    /// Whether the region is the side of smaller y.
-    pub is_above: bool,
-}
-
-impl GrowBound {
-    fn holds(&self, pixel: UVec2) -> bool {
-        let [a, b] = self.line.map(|point| point.0);
-        let along = (b - a) * (b.x - a.x).signum();
-        let below = along.perp_dot(pixel.as_dvec2() + 0.5 - a);
-        // Not a number for a line that is none.
-        below.is_nan() || (if self.is_above { below <= 0.0 } else { below >= 0.0 })
-    }
+    pub bound: Option<Bound>,
 }
 
 impl Default for GrowOptions {

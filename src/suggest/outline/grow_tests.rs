@@ -64,13 +64,13 @@ fn a_bound_is_not_crossed_whichever_end_comes_first() {
     let click = Stroke::inside(vec![PicturePoint::new(60.0, 20.0)], 6.0);
     let line = [PicturePoint::new(0.0, 50.0), PicturePoint::new(240.0, 50.0)];
     for line in [line, [line[1], line[0]]] {
-        let bound = Some(GrowBound { line, is_above: true });
+        let bound = Some(Bound { line, is_above: true });
         let found = grow(&picture(), &click, GrowOptions { bound, ..Default::default() }).unwrap();
         let rows = found.values().chunks(240).map(|row| row.iter().filter(|value| **value > 127).count());
         let rows: Vec<_> = rows.collect();
         assert!(rows[..48].iter().all(|count| *count > 230), "{rows:?}");
         assert!(rows[52..].iter().all(|count| *count == 0), "{rows:?}");
-        let bound = Some(GrowBound { line, is_above: false });
+        let bound = Some(Bound { line, is_above: false });
         let refused = grow(&picture(), &click, GrowOptions { bound, ..Default::default() });
         assert_eq!(refused, Err(OutlineError::NothingMarked));
     }

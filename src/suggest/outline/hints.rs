@@ -27,17 +27,46 @@ const SEED: u64 = 3;
 const OUTER_PARTS: usize = 10;
 const STROKE_PARTS: usize = 4;
 
-/// What a person says about where an object is.
+/// A side of a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    /// Two points of the line.
+    pub line: [PicturePoint; 2],
+    /// Whether the region is the side of smaller y.
+    pub is_above: bool,
+}
+
+impl Bound {
+    pub(super) fn holds(&self, pixel: UVec2) -> bool {
+        let [a, b] = self.line.map(|point| point.0);
+        let along = (b - a) * (b.x - a.x).signum();
+        let below = along.perp_dot(pixel.as_dvec2() + 0.5 - a);
+        // Not a number for a line that is none.
+        below.is_nan() || (if self.is_above { below <= 0.0 } else { below >= 0.0 })
+    }
+
+    /// The part of a block that may lie on that side: the rows with a pixel of it.
+    fn clip(&self, rect: PixelRect) -> PixelRect {
+        let is_held = |y: &u32| [rect.min.x, rect.max.x - 1].iter().any(|&x| self.holds(UVec2::new(x, *y)));
+        let first = (rect.min.y..rect.max.y).find(is_held).unwrap_or(rect.max.y);
+        let last = (first..rect.max.y).rfind(is_held).map_or(first, |last| last + 1);
+        PixelRect { min: UVec2::new(rect.min.x, first), max: UVec2::new(rect.max.x, last) }
+    }
+}
+
+/// What a person says about where an object or a region is.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ObjectHints<'a> {
     /// Two opposite corners of a box outside which nothing of the object is, unless a stroke on it reaches beyond.
     pub corners: Option<[PicturePoint; 2]>,
     /// Strokes on the object and beside it; later ones win.
     pub strokes: &'a [Stroke],
-    /// A first guess, to be mended.
+    /// A first guess, to be mended; with strokes, only in pieces that a stroke on their side touches.
     pub earlier: Option<&'a Mask>,
     /// Whether holes in it are filled: right for a house or a boat, wrong for foliage.
     pub is_solid: bool,
+    /// A line that it does not cross, and the side that it stays on.
+    pub bound: Option<Bound>,
 }
 
 impl ObjectHints<'_> {
@@ -58,8 +87,14 @@ impl ObjectHints<'_> {
         Some(reached.map(|corner| corner.clamp(DVec2::ZERO, limit)))
     }
 
-    /// The block of the picture to look at.
+    /// The block of the picture to look at, never empty.
     pub(super) fn rect(&self, size: UVec2) -> Result<PixelRect, OutlineError> {
+        let rect = self.unbound_rect(size)?;
+        let rect = self.bound.map_or(rect, |bound| bound.clip(rect));
+        if rect.size().min_element() == 0 { Err(OutlineError::NothingMarked) } else { Ok(rect) }
+    }
+
+    fn unbound_rect(&self, size: UVec2) -> Result<PixelRect, OutlineError> {
         if let Some(mask) = self.earlier
             && mask.size() != size
         {
@@ -99,7 +134,7 @@ impl ObjectHints<'_> {
             });
             let hints = ObjectHints { corners: Some(corners.map(PicturePoint)), ..*self };
             if hints.box_in(size).is_some() {
-                return hints.rect(size);
+                return hints.unbound_rect(size);
             }
         }
         Ok(whole)
@@ -129,6 +164,13 @@ impl ObjectHints<'_> {
                     is_stroked[cell] = true;
                 }
             });
+        }
+        if let Some(bound) = self.bound {
+            for (cell, known) in known.iter_mut().enumerate() {
+                if !bound.holds(scaled.pixel(cell)) {
+                    *known = Some(false);
+                }
+            }
         }
         (known, is_stroked)
     }

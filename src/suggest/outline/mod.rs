@@ -14,6 +14,7 @@ mod guided;
 mod hints;
 mod livewire;
 mod max_flow;
+mod mend;
 mod mixture;
 mod parts;
 mod scaled;
@@ -24,8 +25,8 @@ mod trace;
 pub use brush::{Brush, BrushMode};
 pub use contact::{ContactLine, contact_line};
 pub use grabcut::{Cutout, grab_cut};
-pub use grow::{GrowBound, GrowOptions, grow};
-pub use hints::ObjectHints;
+pub use grow::{GrowOptions, grow};
+pub use hints::{Bound, ObjectHints};
 pub use livewire::LiveWire;
 pub use stroke::{Side, Stroke};
 pub use trace::{TracedOutline, outlines_of, polygon_of, simplified_line};
@@ -37,7 +38,7 @@ use glam::UVec2;
 #[non_exhaustive]
 pub enum OutlineError {
     /// No mark says where the object is.
-    #[error("nothing in the picture is marked; draw a box around the object or a stroke on it")]
+    #[error("no mark says where it is; draw a stroke on it, or a box around it")]
     NothingMarked,
     /// The marks leave one side without a pixel.
     #[error("nothing here differs from its surroundings; draw a stroke on the object and one beside it")]
