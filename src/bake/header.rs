@@ -19,7 +19,7 @@ use crate::solve::Annotations;
 
 /// The version of the file's format; one more whenever older files would read wrong, or maps be built
 /// differently by the same version of the crate.
-pub const FORMAT_VERSION: u32 = 6;
+pub const FORMAT_VERSION: u32 = 7;
 
 const MAGIC: [u8; 8] = *b"\x89PTB\r\n\x1a\n";
 

@@ -1,8 +1,9 @@
 //! Layers with their mip levels, for views that show them smaller than the picture did.
 //!
 //! A texel of level k stands for 2^k × 2^k texels of the layer, counted from its first one; the last may stand for fewer.
-//! Colors are averaged premultiplied and in linear light, then stored straight (notes §5.6): nothing that is transparent
-//! tints its neighbors, and what is transparent altogether keeps the mean of the colors that were bled there.
+//! Colors of a layer are straight, those of its levels premultiplied (notes §5.6), both as sRGB codes of linear light: graphics
+//! cards interpolate levels as they are stored, and what covers nearly nothing, in whatever color, must not tint what is beside
+//! it. What covers nothing at all is black there.
 
 use glam::{DVec2, IVec2, UVec2, Vec4};
 use rayon::prelude::*;
@@ -25,7 +26,7 @@ pub const GUTTER: u32 = 1 << MIP_LEVELS;
 pub struct Mipmapped {
     /// The layer itself, in the picture's pixels.
     pub layer: Layer,
-    /// Levels 1 to [`MIP_LEVELS`]; cells are counted from the layer's first, and origins mean nothing.
+    /// Levels 1 to [`MIP_LEVELS`], premultiplied; cells are counted from the layer's first, and origins mean nothing.
     pub coarser: Vec<Layer>,
 }
 
@@ -47,7 +48,7 @@ pub fn mip_level(texels: f64) -> f32 {
 impl From<Layer> for Mipmapped {
     /// The layer, prolonged by a [`GUTTER`] on all sides, and its levels.
     fn from(layer: Layer) -> Self {
-        Self::levels_of(with_gutters(&layer))
+        Self::with_gutters(&layer, |_, _| {})
     }
 }
 
@@ -55,9 +56,24 @@ impl Mipmapped {
     /// A layer as it is, and its levels.
     #[must_use]
     pub fn levels_of(layer: Layer) -> Self {
+        Self::mended(layer, |_, _| {})
+    }
+
+    /// The layer, prolonged by a [`GUTTER`] on all sides, and its levels, each mended by `mend` (called with the level from 1
+    /// on and its cells, whose first is that of the layer) before it is halved.
+    #[must_use]
+    pub(super) fn with_gutters(layer: &Layer, mend: impl Fn(usize, &mut Layer)) -> Self {
+        Self::mended(with_gutters(layer), mend)
+    }
+
+    fn mended(layer: Layer, mend: impl Fn(usize, &mut Layer)) -> Self {
         let mut coarser: Vec<Layer> = Vec::with_capacity(MIP_LEVELS);
-        for _ in 0..MIP_LEVELS {
-            let next = halved(coarser.last().unwrap_or(&layer));
+        for level in 1..=MIP_LEVELS {
+            let mut next = match coarser.last() {
+                Some(finer) => halved(finer, linear),
+                None => halved(&layer, |texel| premultiplied(linear(texel))),
+            };
+            mend(level, &mut next);
             coarser.push(next);
         }
         Self { layer, coarser }
@@ -87,12 +103,21 @@ impl Mipmapped {
         let limit = (mip_size(self.layer.size, coarsest) << coarsest as u32).as_dvec2();
         let at = (snap(point).0 - self.layer.origin.as_dvec2()).clamp(margin, limit - margin);
         let finer = match whole {
-            0 => Vec4::from(self.layer.sample(point)),
+            0 => premultiplied(Vec4::from(self.layer.sample(point))),
             _ => bilinear(self.level(whole), at / f64::from(1_u32 << whole)),
         };
         let coarser = bilinear(self.level(whole + 1), at / f64::from(2_u32 << whole));
-        finer.lerp(coarser, level - whole as f32).to_array()
+        straight(finer.lerp(coarser, level - whole as f32)).to_array()
     }
+}
+
+/// Straight coverage from premultiplied; what covers nothing is black.
+fn straight(texel: Vec4) -> Vec4 {
+    (texel / texel.w.max(1e-6)).min(Vec4::ONE).with_w(texel.w)
+}
+
+fn premultiplied(texel: Vec4) -> Vec4 {
+    (texel.w * texel).with_w(texel.w)
 }
 
 /// The mean of the four texels around a place; the border is prolonged.
@@ -107,7 +132,8 @@ fn bilinear(layer: &Layer, at: DVec2) -> Vec4 {
     texel(0, 0).lerp(texel(1, 0), part.x).lerp(texel(0, 1).lerp(texel(1, 1), part.x), part.y)
 }
 
-fn linear([r, g, b, a]: [u8; 4]) -> Vec4 {
+/// Linear light and coverage from their codes.
+pub(super) fn linear([r, g, b, a]: [u8; 4]) -> Vec4 {
     Vec4::new(linear_from_srgb(r), linear_from_srgb(g), linear_from_srgb(b), f32::from(a) / 255.0)
 }
 
@@ -121,30 +147,30 @@ fn with_gutters(layer: &Layer) -> Layer {
     })
 }
 
-/// A layer of half the size.
-fn halved(layer: &Layer) -> Layer {
+/// A level of half the size, its texels premultiplied; `light_of` gives the light of those it is made from, premultiplied.
+fn halved(layer: &Layer, light_of: impl Fn([u8; 4]) -> Vec4 + Sync) -> Layer {
     let size = mip_size(layer.size, 1);
     let (width, from) = (size.x as usize, layer.size);
     let mut cells = vec![[0; 4]; width * size.y as usize];
     cells.par_chunks_mut(width.max(1)).with_min_len(16).enumerate().for_each(|(row, cells)| {
         for (column, cell) in cells.iter_mut().enumerate() {
-            let (mut light, mut plain, mut alpha, mut count) = (Vec4::ZERO, Vec4::ZERO, 0_u32, 0_u32);
+            let (mut light, mut count) = (Vec4::ZERO, 0.0);
             for y in [2 * row, 2 * row + 1].into_iter().filter(|&y| y < from.y as usize) {
                 for x in [2 * column, 2 * column + 1].into_iter().filter(|&x| x < from.x as usize) {
-                    let codes = layer.cells[y * from.x as usize + x];
-                    let texel = linear(codes);
-                    light += texel * f32::from(codes[3]);
-                    plain += texel;
-                    alpha += u32::from(codes[3]);
-                    count += 1;
+                    light += light_of(layer.cells[y * from.x as usize + x]);
+                    count += 1.0;
                 }
             }
-            let color = if alpha > 0 { light / alpha as f32 } else { plain / count.max(1) as f32 };
-            let [r, g, b] = [color.x, color.y, color.z].map(srgb_from_linear);
-            *cell = [r, g, b, ((2 * alpha + count) / (2 * count).max(1)) as u8];
+            *cell = codes(light / count);
         }
     });
     Grid { origin: layer.origin, size, cells }
+}
+
+/// Codes of light and coverage. (Nobody asks for those of no texel.)
+pub(super) fn codes(light: Vec4) -> [u8; 4] {
+    let [r, g, b] = [light.x, light.y, light.z].map(srgb_from_linear);
+    [r, g, b, (255.0 * light.w).round() as u8]
 }
 
 #[cfg(test)]
@@ -153,13 +179,32 @@ mod tests {
 
     #[test]
     fn a_half_transparent_edge_gets_no_dark_fringe() {
-        // Opaque red beside transparent green: the mean is red at half coverage, not olive.
+        // Opaque red beside transparent green: the mean is half as much red (code 188), not olive.
         let layer = Layer::from_fn(IVec2::ZERO, UVec2::new(4, 2), |pixel| {
             if (pixel.x + pixel.y) % 2 == 0 { [255, 0, 0, 255] } else { [0, 255, 0, 0] }
         });
         let map = Mipmapped::levels_of(layer);
-        assert_eq!(map.coarser[0].cells, [[255, 0, 0, 128]; 2]);
+        assert_eq!(map.coarser[0].cells, [[188, 0, 0, 128]; 2]);
         assert_eq!(map.coarser.len(), MIP_LEVELS);
+    }
+
+    #[test]
+    fn a_bright_texel_that_covers_nearly_nothing_does_not_shine_between_levels() {
+        // As the alpha lift leaves beside an outline: dark and opaque on the left, white at 1/255 in the column beside it.
+        let layer = Layer::from_fn(IVec2::ZERO, UVec2::new(16, 4), |pixel| match pixel.x {
+            0..8 => [30, 30, 30, 255],
+            8..10 => [255, 255, 255, 1],
+            _ => [30, 30, 30, 0],
+        });
+        let map = Mipmapped::levels_of(layer);
+        let dark = linear_from_srgb(30);
+        for level in [0.3, 0.7, 1.0, 1.5, 2.0, 3.0] {
+            for x in 0..64 {
+                let [r, _, _, a] = map.sample(PicturePoint::new(0.25 * f64::from(x), 2.0), level);
+                let excess = a * (r - dark);
+                assert!(excess < 0.006, "{excess} of white too much at {x}/4, level {level}");
+            }
+        }
     }
 
     #[test]

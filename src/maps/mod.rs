@@ -207,8 +207,8 @@ impl Maps {
             .map(|(index, ((texture, reflection), origin))| ComponentMaps {
                 shares: shares(reflection.as_ref(), &origin, picture),
                 mean_lift: texture::mean_lift(&texture, &coverage.alpha[index]),
-                texture: texture.into(),
-                reflection: reflection.map(Mipmapped::from),
+                texture: seam::texture_levels(scene, picture, &coverage, index, &texture),
+                reflection: reflection.map(|map| seam::reflection_levels(scene, index, &map)),
             })
             .collect();
         step(1.0, "done")?;

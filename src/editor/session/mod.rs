@@ -31,8 +31,8 @@ use super::{
 };
 use crate::plugin::PictureTourSystems;
 use crate::tour::Tour;
-use crate::tour::edit::{Edit, RegionAt};
 use crate::tour::edit::desk::{Desk, Recent, Recovered, Replace, Version};
+use crate::tour::edit::{Edit, RegionAt};
 
 /// Adds the studio to an app that has Bevy's default plugins, [`PictureTourPlugin`](crate::plugin::PictureTourPlugin) and
 /// `EguiPlugin`. It fills the window of the primary egui context while a [`Session`] is there.

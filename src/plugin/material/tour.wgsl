@@ -277,7 +277,10 @@ fn sharp(
     let step = exp2(ceil(level));
     let limit = low + ceil((high - low + 1.0) / step) * step;
     let place = clamp(at, low + 0.5 * step, limit - 0.5 * step) / vec2<f32>(textureDimensions(map));
-    return mix(fine, textureSampleLevel(map, filtering, place, max(level, 1.0)), min(level, 1.0));
+    // Levels are premultiplied.
+    let coarse = textureSampleLevel(map, filtering, place, max(level, 1.0));
+    let mixed = mix(vec4(fine.a * fine.rgb, fine.a), coarse, min(level, 1.0));
+    return vec4(min(mixed.rgb / max(mixed.a, 1e-6), vec3(1.0)), mixed.a);
 }
 
 // The same at its finest level: cubic, and within what the four nearest texels span, so that nothing rings. Texels weigh as
