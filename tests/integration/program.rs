@@ -231,13 +231,27 @@ fn nobody_reading_is_no_fault() {
     assert_eq!(stderr(&ended), "");
 }
 
-#[cfg(unix)]
 #[test]
-fn a_folder_that_is_a_file_is_refused() {
+fn one_frame_may_be_a_file_but_none_of_the_tour_s_own() {
     let folder = folder_with_tour();
-    let refused = run(folder.path(), &["render", "pond.tour.ron", "--reference", "--out", "pond.png"]);
+    let view = |to: &str| run(folder.path(), &["render", "pond.tour.ron", "--reference", "--out", to]);
+    let own = fs::read(folder.path().join("pond.png")).unwrap();
+    for (out, why) in [("pond.png", "belongs to the tour"), ("pond.tour.ron", "belongs to the tour")] {
+        let refused = view(out);
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(stderr(&refused).contains(why), "{}", stderr(&refused));
+    }
+    assert!(fs::read(folder.path().join("pond.png")).unwrap() == own, "the picture was touched");
+    fs::write(folder.path().join("notes.txt"), "mine").unwrap();
+    let refused = view("notes.txt");
+    assert!(stderr(&refused).contains("notes.txt"), "{}", stderr(&refused));
+    let one = view("one.png");
+    assert!(one.status.success(), "{}", stderr(&one));
+    assert!(folder.path().join("one.png").is_file());
+    let path = ["render", "pond.tour.ron", "--reference", "--path", "--fps", "1", "--out", "many.png"];
+    let refused = run(folder.path(), &path);
     assert_eq!(refused.status.code(), Some(2));
-    assert!(stderr(&refused).contains("pond.png"), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("frames do not fit into many.png"), "{}", stderr(&refused));
 }
 
 #[test]

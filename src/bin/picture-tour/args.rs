@@ -121,7 +121,7 @@ pub(crate) struct NewArguments {
 pub(crate) struct RenderArguments {
     /// The tour to render; the demo if left out
     pub(crate) tour: Option<PathBuf>,
-    /// Folder for the frames, made if it is not there; or FILE.mp4 or FILE.webm for a film (needs ffmpeg)
+    /// Folder for the frames, made if it is not there; or FILE.png for one frame, FILE.mp4 or FILE.webm for a film (needs ffmpeg)
     #[arg(long, value_name = "DIR|FILE")]
     pub(crate) out: PathBuf,
     /// Render these views: a JSON list of `{"name", "position": [x, y, z], "yaw_deg", "pitch_deg", "roll_deg"}`

@@ -2,6 +2,7 @@
 
 use std::io::Write;
 use std::path::Path;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering;
@@ -11,6 +12,7 @@ use bevy_picture_tour::camera::PinholeCamera;
 use bevy_picture_tour::camera::fitted;
 use bevy_picture_tour::picture::PngPixels;
 use bevy_picture_tour::picture::save_png;
+use bevy_picture_tour::tour::Tour;
 use glam::UVec2;
 use indicatif::ProgressBar;
 
@@ -18,7 +20,7 @@ use crate::args::MAX_SIDE;
 use crate::args::RenderArguments;
 use crate::failure::Failure;
 use crate::film::{self, Film};
-use crate::frames;
+use crate::frames::{self, Frame};
 use crate::open;
 use crate::renderer::Renderer;
 
@@ -29,7 +31,9 @@ static STOP: AtomicBool = AtomicBool::new(false);
 pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
     watch_for_ctrl_c()?;
     let opened = open::open(arguments.tour.as_deref())?;
-    let frames = frames::planned(arguments, opened.asset.tour())?;
+    let mut frames = frames::planned(arguments, opened.asset.tour())?;
+    refuse_own_files(arguments, opened.asset.tour())?;
+    let folder = folder_of(&arguments.out, &mut frames)?;
     let is_film = film::is_film(&arguments.out);
     if is_film && !arguments.path && arguments.loop_seconds.is_none() {
         return Err(Failure::CannotRun(
@@ -38,7 +42,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         ));
     }
     if !is_film {
-        prepare_folder(&arguments.out)?;
+        prepare_folder(&folder)?;
     }
 
     let size = arguments.size.unwrap_or(opened.picture_size()).min(UVec2::splat(MAX_SIDE));
@@ -60,7 +64,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
             return Err(Failure::CannotRun(format!(
                 "stopped; {done} of {} frames are done{}",
                 frames.len(),
-                if is_film { String::new() } else { format!(", whole, in {}", arguments.out.display()) }
+                if is_film { String::new() } else { format!(", whole, in {}", folder.display()) }
             )));
         }
         bar.set_message(frame.file.clone());
@@ -69,7 +73,7 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         if let Some(film) = &mut film {
             film.add(&picture)?;
         } else {
-            save_png(&arguments.out.join(&frame.file), picture.size(), PngPixels::Rgb(picture.pixels()))
+            save_png(&folder.join(&frame.file), picture.size(), PngPixels::Rgb(picture.pixels()))
                 .map_err(|error| Failure::CannotRun(error.to_string()))?;
         }
         bar.inc(1);
@@ -85,9 +89,42 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
         "{frames} of {} x {} px in {}",
         size.x,
         size.y,
-        arguments.out.display()
+        if is_film { arguments.out.display() } else { folder.display() }
     )?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses to write over what the tour is made of.
+fn refuse_own_files(arguments: &RenderArguments, tour: &Tour) -> Result<(), Failure> {
+    let Some((file, out)) = arguments.tour.as_deref().zip(arguments.out.canonicalize().ok()) else {
+        return Ok(());
+    };
+    let own = tour.files().into_iter().map(|(_, name)| file.with_file_name(name.as_str()));
+    if own.chain([file.to_owned()]).any(|own| own.canonicalize().is_ok_and(|own| own == out)) {
+        return Err(Failure::CannotRun(format!(
+            "{} belongs to the tour; name another file or folder with --out",
+            arguments.out.display()
+        )));
+    }
+    Ok(())
+}
+
+/// The folder that frames are written to; one frame alone may be named as a file.
+fn folder_of(out: &Path, frames: &mut [Frame]) -> Result<PathBuf, Failure> {
+    let is_png = out.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
+    let Some(name) = out.file_name().filter(|_| is_png && !out.is_dir()) else { return Ok(out.to_owned()) };
+    match frames {
+        [only] => only.file = name.to_string_lossy().into_owned(),
+        frames => {
+            return Err(Failure::CannotRun(format!(
+                "{} frames do not fit into {}; name a folder with --out, or FILE.mp4 or FILE.webm for a film",
+                frames.len(),
+                out.display()
+            )));
+        }
+    }
+    let parent = out.parent().filter(|parent| !parent.as_os_str().is_empty());
+    Ok(parent.unwrap_or(Path::new(".")).to_owned())
 }
 
 /// Lets the first Ctrl-C end the work after the frame at hand, and a second one at once.
