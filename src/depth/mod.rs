@@ -118,8 +118,8 @@ pub fn measure(
     let shifts =
         match_all(&view, below, &|share| progress(0.05 + 0.9 * share)).ok_or(DepthError::Cancelled)?;
     let (leveled, is_sky) = horizon::horizon(&view, &shifts, known / scale);
-    let voted = vote::vote(&view, &shifts);
-    let shifts = visibility::without_hiding(&view, &shifts, voted);
+    let seen = visibility::Seen::of(&view, &shifts);
+    let shifts = vote::vote(&view, &shifts, &seen);
     let horizon = HorizonOffset {
         offset_px: leveled.offset_px * scale,
         deviation_px: leveled.deviation_px * scale,

@@ -1,10 +1,8 @@
-//! What cannot be: a thing whose mirror image would hide what the water shows there.
+//! What the water shows, and what that rules out: a thing whose mirror image would hide what is seen there.
 //!
-//! Supports reach over outlines, and votes carry the shift of a tree to what is seen between its branches. Where the
-//! mirror image of something farther off was matched, nothing nearer is mirrored: the water shows the nearest thing
-//! there is. The other way round says nothing: what is farther off may well be hidden by what is matched.
-
-use rayon::prelude::*;
+//! Supports reach over outlines, and carry the shift of a tree to what is seen between its branches. Where the mirror
+//! image of something farther off was matched, nothing nearer is mirrored: the water shows the nearest thing there is.
+//! The other way round says little: what is farther off than what was matched there is hidden by it.
 
 use super::levels::{Shifts, TRUSTED};
 use super::view::View;
@@ -14,33 +12,53 @@ use super::view::View;
 const SAME_PX: f32 = 1.0;
 const SAME_PART: f32 = 0.1;
 
-/// Takes the confidence from voted shifts whose mirror image would hide something that was `matched` there.
-pub(super) fn without_hiding(view: &View, matched: &Shifts, mut voted: Shifts) -> Shifts {
-    let seen = seen_in_water(view, matched);
-    let Shifts { shift, confidence, .. } = &mut voted;
-    confidence.par_iter_mut().enumerate().for_each(|(cell, confidence)| {
-        let shift = shift[cell];
-        // Where nothing was matched there is NaN, which is not less.
-        let hides = |mirrored: usize| seen[mirrored] < shift * (1.0 - SAME_PART) - SAME_PX;
-        if mirror(view, cell, shift).is_some_and(hides) {
-            *confidence = 0.0;
-        }
-    });
-    voted
+/// What the water says of a pixel and a shift.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sight {
+    /// Nothing against it: the water shows that shift there, or what it shows was not matched.
+    Open,
+    /// Something nearer hides its mirror image.
+    Hidden,
+    /// Its mirror image would hide something that is seen there.
+    Hiding,
 }
 
-/// The shift of what each pixel of the water was matched with, that of the nearest if of several; NaN where there is none.
-fn seen_in_water(view: &View, matched: &Shifts) -> Vec<f32> {
-    let mut seen = vec![f32::NAN; view.kinds.len()];
-    for (cell, (&shift, &confidence)) in matched.shift.iter().zip(&matched.confidence).enumerate() {
-        if confidence >= TRUSTED
-            && let Some(mirrored) = mirror(view, cell, shift)
-        {
-            // Of a number and NaN this is the number.
-            seen[mirrored] = seen[mirrored].max(shift);
+/// The shift of what each pixel of the water was matched with.
+#[derive(Debug)]
+pub(super) struct Seen<'a> {
+    view: &'a View,
+    /// That of the nearest if of several; NaN where there is none.
+    shift: Vec<f32>,
+}
+
+impl<'a> Seen<'a> {
+    /// What was `matched` more likely than not.
+    pub(super) fn of(view: &'a View, matched: &Shifts) -> Self {
+        let mut seen = vec![f32::NAN; view.kinds.len()];
+        for (cell, (&shift, &confidence)) in matched.shift.iter().zip(&matched.confidence).enumerate() {
+            if confidence >= TRUSTED
+                && let Some(mirrored) = mirror(view, cell, shift)
+            {
+                // Of a number and NaN this is the number.
+                seen[mirrored] = seen[mirrored].max(shift);
+            }
+        }
+        Self { view, shift: seen }
+    }
+
+    /// What is seen where a pixel's mirror image would stand for a shift.
+    pub(super) fn sight(&self, cell: usize, shift: f32) -> Sight {
+        let Some(mirrored) = mirror(self.view, cell, shift) else { return Sight::Open };
+        // Where nothing was matched there is NaN, which is neither less nor more.
+        let seen = self.shift[mirrored];
+        if seen < shift * (1.0 - SAME_PART) - SAME_PX {
+            Sight::Hiding
+        } else if shift < seen * (1.0 - SAME_PART) - SAME_PX {
+            Sight::Hidden
+        } else {
+            Sight::Open
         }
     }
-    seen
 }
 
 /// The pixel in which a pixel's mirror image stands for a shift.
@@ -90,36 +108,37 @@ mod tests {
         shifts
     }
 
-    fn confidence(matched: &[((usize, f32), f32)], voted: (usize, f32)) -> f32 {
-        let found = without_hiding(&view(), &shifts(matched), shifts(&[(voted, 0.8)]));
-        assert_eq!(found.shift[voted.0 * WIDTH + 1], voted.1, "only the confidence changes");
-        found.confidence[voted.0 * WIDTH + 1]
+    fn sight(matched: &[((usize, f32), f32)], (row, shift): (usize, f32)) -> Sight {
+        Seen::of(&view(), &shifts(matched)).sight(row * WIDTH + 1, shift)
     }
 
     #[test]
     fn nothing_hides_what_the_water_shows() {
-        assert_eq!(confidence(&[(FAR, 0.9)], NEAR), 0.0);
-        assert_eq!(confidence(&[(FAR, 0.3)], NEAR), 0.8, "what may be chance is no sight");
-        assert_eq!(confidence(&[(FAR, 0.9), (NEAR, 0.9)], NEAR), 0.8, "the nearer of two is seen");
+        assert_eq!(sight(&[(FAR, 0.9)], NEAR), Sight::Hiding);
+        assert_eq!(sight(&[(FAR, 0.3)], NEAR), Sight::Open, "what may be chance is no sight");
+        assert_eq!(sight(&[(FAR, 0.9), (NEAR, 0.9)], NEAR), Sight::Open, "the nearer of two is seen");
     }
 
     #[test]
-    fn what_is_hidden_itself_may_be_true() {
-        assert_eq!(confidence(&[(NEAR, 0.9)], FAR), 0.8);
-        assert_eq!(confidence(&[], FAR), 0.8, "nothing was seen there");
+    fn what_is_farther_is_hidden() {
+        assert_eq!(sight(&[(NEAR, 0.9)], FAR), Sight::Hidden);
+        assert_eq!(sight(&[], FAR), Sight::Open, "nothing was seen there");
     }
 
     #[test]
     fn a_slope_hides_nothing() {
         // One row and one pixel of shift farther: 39 − 15 + 9 is the same row of the water.
-        assert_eq!(confidence(&[((15, 9.0), 0.9)], NEAR), 0.8);
-        assert_eq!(confidence(&[((14, 8.0), 0.9)], NEAR), 0.8, "as much as is let pass");
-        assert_eq!(confidence(&[((13, 7.0), 0.9)], NEAR), 0.0);
+        assert_eq!(sight(&[((15, 9.0), 0.9)], NEAR), Sight::Open);
+        assert_eq!(sight(&[((14, 8.0), 0.9)], NEAR), Sight::Open, "as much as is let pass");
+        assert_eq!(sight(&[((13, 7.0), 0.9)], NEAR), Sight::Hiding);
+        assert_eq!(sight(&[(NEAR, 0.9)], (14, 8.0)), Sight::Open);
+        assert_eq!(sight(&[(NEAR, 0.9)], (13, 7.0)), Sight::Hidden);
     }
 
     #[test]
     fn what_has_no_place_in_the_picture_is_left_alone() {
-        assert_eq!(confidence(&[(FAR, 0.9)], (16, 1e9)), 0.8);
-        assert_eq!(confidence(&[((3, -1e9), 0.9)], NEAR), 0.8);
+        assert_eq!(sight(&[(FAR, 0.9)], (16, 1e9)), Sight::Open);
+        assert_eq!(sight(&[((3, -1e9), 0.9)], NEAR), Sight::Open);
+        assert_eq!(sight(&[(FAR, 0.9)], (16, f32::NAN)), Sight::Open);
     }
 }

@@ -79,6 +79,30 @@ fn still_water_tells_distances() {
 }
 
 #[test]
+fn what_the_water_hides_behind_a_shore_is_not_drawn_to_the_shore() {
+    // Above the shore's outline stand mountains whose mirror image the shore's own hides.
+    let lake = hills(-2.0, 0.0);
+    let shot = lake.shot();
+    let map = map_of(&shot, &lake.camera);
+    let (width, height) = (map.size.x as usize, map.size.y as usize);
+    let (mut known, mut drawn) = (0, 0);
+    for x in 0..width {
+        let far = |row: usize| shot.distance[row * width + x] > 100.0;
+        let outline = (1..height).find(|&row| far(row - 1) && !far(row));
+        // Their shifts differ by 28 − 11.2 pixels; the last rows may show some of both.
+        let Some(outline) = outline.filter(|&row| row > 14) else { continue };
+        for pixel in (outline - 14..outline - 1).map(|row| row * width + x) {
+            let at = shot.distance[pixel];
+            if at.is_finite() && map.is_known(pixel) {
+                known += 1;
+                drawn += usize::from(f64::from(map.distance[pixel]) < 0.75 * at);
+            }
+        }
+    }
+    assert!(known > 2000 && drawn * 20 < known, "{drawn} of {known} pixels were drawn to the shore");
+}
+
+#[test]
 fn a_receding_wall_has_a_distance_of_its_own_in_every_column() {
     let ends = [DVec2::new(-30.0, -120.0), DVec2::new(14.0, -18.0)];
     let wall = Wall { ends, height: 9.0, jagged: 2.0, grain: 2.0, color: [150.0, 120.0, 90.0] };
