@@ -1,21 +1,22 @@
 //! The tour's background, bands and sky as the scene's backdrops, each with its mask.
 //!
 //! Exactly one has no mask, or none: it shows wherever no other does. That is the band without a region; else the
-//! background, where the tour says where it stands or has no bands; else the sky.
+//! background, where the tour says where it stands or has no bands; else the sky. Where sky is all that is seen above the
+//! water, as on the open sea, there is no background either.
 
-use super::TourSource;
+use super::{TourSource, background_mask};
 use crate::picture::Mask;
 use crate::scene::BackdropPlace;
 use crate::scene::BackdropPlan;
 use crate::scene::Role;
 use crate::scene::TourScene;
-use crate::solve::SceneParameters;
+use crate::solve::{Label, Solution};
 use crate::tour::BackgroundPlace;
 
 /// All backdrops, in the tour's order.
 pub(super) fn backdrops(
     source: &TourSource,
-    parameters: &SceneParameters,
+    solution: &Solution,
     remarks: &mut Vec<String>,
 ) -> Vec<BackdropPlan> {
     let background = &source.tour.background;
@@ -33,11 +34,11 @@ pub(super) fn backdrops(
         })
         .collect();
     let taken = background.bands.iter().any(|band| band.region.is_none());
-    let said = background.place.is_some() || background.bands.is_empty();
+    let said = background.place.is_some() || background.bands.is_empty() && !is_open(source, solution);
     if said && !taken {
         let place = match background.place {
             Some(BackgroundPlace::Infinity) => BackdropPlace::Infinity,
-            _ => BackdropPlace::Distance(parameters.background_distance),
+            _ => BackdropPlace::Distance(solution.parameters.background_distance),
         };
         found.push(backdrop("background", place));
     } else if said && background.place.is_some() {
@@ -59,6 +60,20 @@ pub(super) fn backdrops(
         );
     }
     found
+}
+
+/// Less of the picture than this is no land: masks leave slivers between them.
+const LEAST_LAND: f64 = 0.005;
+
+/// Whether nothing tells how far a background stands, and the sky's mask leaves nothing that could be one.
+fn is_open(source: &TourSource, solution: &Solution) -> bool {
+    let distance = solution.report.parameter("background_distance");
+    if source.sky.is_none() || distance.is_none_or(|distance| distance.label != Label::Assumed) {
+        return false;
+    }
+    let land = background_mask(source);
+    let covered: f64 = land.values().iter().map(|&covered| f64::from(covered) / 255.0).sum();
+    covered < LEAST_LAND * land.values().len() as f64
 }
 
 /// Visible coverage of a scene's backdrops, in the scene's order; `None` for the one that shows wherever nothing else

@@ -9,6 +9,7 @@ use crate::assemble::{hints, place};
 use crate::depth::Agreement;
 use crate::depth::tests::world::{Lake, camera, frontal};
 use crate::picture::{PngPixels, encode_png};
+use crate::scene::Surface;
 use crate::tour::{Document, FocalLength, ReflectionPair, Scale, WaterArea};
 
 const SIZE: UVec2 = UVec2::new(480, 270);
@@ -159,4 +160,23 @@ fn hints_find_the_band_that_stands_wrong() {
     assert_eq!(verdicts, [Agreement::WrongFoot, Agreement::Agrees], "{:?}", hints.standing);
     let by = hints.by_pairs.expect("there are pairs enough").parameters;
     assert!((by.pitch.to_degrees() + 2.0).abs() < 0.1 && by.roll.to_degrees().abs() < 0.1, "{by:?}");
+}
+
+#[test]
+fn on_the_open_sea_the_sky_closes_the_scene() {
+    let sea = lake(&[]);
+    let (tour, source, mut files) = marked(&sea, |_| {});
+    let land = source.water.as_ref().unwrap().values().iter().map(|&water| 255 - water).collect::<Vec<u8>>();
+    files.insert("sky.png".to_owned(), encode_png(SIZE, PngPixels::Gray(&land)).unwrap());
+    let mut file = tour.to_file();
+    file.sky = Some(Sky { region: Some(Region::Mask("sky.png".to_owned())), drift: None });
+    let open = place(&read(&Tour::check(file.clone()).unwrap(), &files)).unwrap();
+    assert_eq!(open.scene.components.len(), 1, "{:?}", open.scene.components);
+    assert_eq!(open.scene.last_layer().surface, Surface::Infinity);
+    // A fifth of the sky is land, of which nothing tells the distance.
+    let shore = land.iter().enumerate().map(|(i, &land)| if i % SIZE.x as usize > 384 { 0 } else { land });
+    let shore: Vec<u8> = shore.collect();
+    files.insert("sky.png".to_owned(), encode_png(SIZE, PngPixels::Gray(&shore)).unwrap());
+    let closed = place(&read(&Tour::check(file).unwrap(), &files)).unwrap();
+    assert!(closed.scene.components.iter().any(|component| component.name == "background"));
 }

@@ -181,7 +181,7 @@ fn plan(source: &TourSource, solution: &Solution, remarks: &mut Vec<String>) -> 
         camera: parameters.camera(source.picture.size()),
         water: tour.water.is_some(),
         ground_height: tour.ground.as_ref().map(|_| parameters.ground_height),
-        backdrops: backdrops::backdrops(source, parameters, remarks),
+        backdrops: backdrops::backdrops(source, solution, remarks),
         billboards: tour
             .objects
             .iter()

@@ -20,6 +20,7 @@ mod paper;
 mod reflection;
 mod rim;
 mod seam;
+mod skyline;
 mod softness;
 mod texture;
 mod tint;

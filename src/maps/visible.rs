@@ -9,17 +9,18 @@ use super::Grid;
 use super::beyond::{folded, frame};
 use super::coverage::{ALONE, TourMasks, is_above_contact};
 use super::fill::membrane;
+use super::skyline::prolong;
 use crate::picture::Mask;
 use crate::picture::{PicturePoint, distances};
 use crate::scene::Role;
 use crate::scene::TourScene;
 use crate::scene::margin_px;
 
-/// A hidden border is guessed from what is nearer than this, pixels.
+/// A hidden border is guessed from what is nearer than this, pixels; behind wider things only a band's upper one.
 const FARTHEST: f32 = 64.0;
 
 /// A pixel is known, not guessed, while what is nearer hides less of it than this.
-const HIDDEN: u32 = 5;
+pub(super) const HIDDEN: u32 = 5;
 
 /// Rows above a contact line that an antialiased mask leaves in part to the water.
 const LAST: i32 = 2;
@@ -144,7 +145,9 @@ pub(super) fn completed(
             Role::Band => {
                 let mut whole =
                     behind(own, &hidden, IVec2::ZERO, size, |pixel| is_above_contact(scene, index, pixel));
-                stand(&mut whole, &hidden, |pixel| is_above_contact(scene, index, pixel));
+                let is_above = |pixel| is_above_contact(scene, index, pixel);
+                prolong(&mut whole, own, &hidden, FARTHEST as i32, is_above);
+                stand(&mut whole, &hidden, is_above);
                 whole
             }
             Role::LastLayer => {

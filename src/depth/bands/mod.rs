@@ -1,9 +1,10 @@
 //! Flat bands from a depth map: upright planes at a few distances, each with what of the picture stands on it.
 //!
-//! As many as the depth supports and no more. Known pixels take the nearest band; others that of what they belong to
-//! by color and edges. The masks are soft, follow the picture's edges, and sum to 1 wherever anything is banded.
+//! As many as the depth supports and no more. A pixel takes the band of what it belongs to, by the distances measured in
+//! it, by color, edges, and what it stands on. The masks are soft, follow the picture's edges, and sum to 1 wherever anything is banded.
 
 mod cluster;
+mod pieces;
 mod soften;
 mod spread;
 
@@ -122,8 +123,11 @@ pub fn bands(
     let labels = spread(width, picture.pixels(), &inside, &seeds);
     let guide =
         Guide::of(width, picture.pixels().par_iter().map(|&c| luma(c.map(f32::from)) / 255.0).collect());
-    let used: Vec<u8> =
-        (0..=found.centers.len() as u8).filter(|&label| labels.contains(&Some(label))).collect();
+    // A measured pixel of another band is an outlier: it says nothing of any.
+    let agrees = |pixel: usize, label: u8| labels[pixel] == Some(label) && seeds[pixel] == Some(label);
+    let used: Vec<u8> = (0..=found.centers.len() as u8)
+        .filter(|&label| (0..count).any(|pixel| agrees(pixel, label)))
+        .collect();
     let soft: Vec<Vec<f32>> = used
         .iter()
         .map(|&label| {
@@ -142,7 +146,8 @@ pub fn bands(
             (part * f32::from(background.values()[pixel])).round() as u8
         });
         let Ok(mask) = Mask::new(size, coverage.collect()) else { continue };
-        let measured: Vec<usize> = known.iter().copied().filter(|&pixel| own(pixel) && label > 0).collect();
+        let measured: Vec<usize> =
+            known.iter().copied().filter(|&pixel| label > 0 && agrees(pixel, label)).collect();
         let pixels = (0..count).filter(|&pixel| own(pixel)).count();
         let (mean, own_variance) = if label == 0 { (0.0, 0.0) } else { mean(&measured, &shift, &variance) };
         let step =
