@@ -6,7 +6,7 @@
 use glam::{IVec2, UVec2};
 
 use super::Grid;
-use super::beyond::{folded, frame};
+use super::beyond::{across, beyond_border};
 use super::coverage::{ALONE, TourMasks, is_above_contact};
 use super::fill::membrane;
 use super::skyline::prolong;
@@ -229,55 +229,6 @@ fn stand(whole: &mut Grid<u8>, hidden: &Grid<u8>, is_above: impl Fn(IVec2) -> bo
             above = whole.cells[cell];
         }
     }
-}
-
-/// A band's coverage across the whole frame: folded in from the sides, its uppermost row prolonged upwards.
-fn across(inside: &Grid<u8>, picture: UVec2) -> Grid<u8> {
-    let (low, high) = frame(picture);
-    let width = picture.x as usize;
-    let rows = inside.cells.chunks(width.max(1));
-    let covered: Vec<usize> =
-        rows.enumerate().filter(|(_, row)| row.iter().any(|&c| c > 0)).map(|(y, _)| y).collect();
-    let (Some(&first), Some(&last)) = (covered.first(), covered.last()) else {
-        return Grid::filled(IVec2::ZERO, UVec2::ONE, 0);
-    };
-    // Free rows above and below, or sampling would prolong the coverage without end.
-    let top = if first == 0 { low.y } else { first as i32 - 1 };
-    let bottom = (last as i32 + 2 + margin_px(picture)).min(high.y);
-    let extent = UVec2::new((high.x - low.x) as u32, (bottom - top) as u32);
-    Grid::from_fn(IVec2::new(low.x, top), extent, |pixel| {
-        let beside = folded(pixel, picture).x;
-        let row = if pixel.y < 0 { 0 } else { pixel.y };
-        inside.get(IVec2::new(beside, row)).unwrap_or(0)
-    })
-}
-
-/// A billboard's coverage with what the picture's left, right and upper border cut off folded in, as far as maps reach.
-fn beyond_border(inside: &Grid<u8>, picture: UVec2) -> Grid<u8> {
-    let (least, most) = frame(picture);
-    let (mut low, mut high) = (inside.origin, inside.origin + inside.size.as_ivec2());
-    let width = picture.x as i32;
-    let touches = |column: i32| {
-        (low.y..high.y).any(|y| inside.get(IVec2::new(column, y)).is_some_and(|covered| covered > 0))
-    };
-    let (left, right) = (touches(0), touches(width - 1));
-    let top = (low.x..high.x).any(|x| inside.get(IVec2::new(x, 0)).is_some_and(|covered| covered > 0));
-    // One free column ends the fold, or sampling would prolong it without end.
-    if left {
-        low.x = least.x;
-    }
-    if right {
-        high.x = most.x;
-    }
-    if top {
-        low.y = least.y;
-    }
-    Grid::from_fn(low, (high - low).as_uvec2(), |pixel| {
-        let end = (left && pixel.x == low.x) || (right && pixel.x == high.x - 1) || (top && pixel.y == low.y);
-        let beside = folded(pixel, picture).x;
-        let row = if top && pixel.y < 0 { folded(pixel, picture).y } else { pixel.y };
-        if end { 0 } else { inside.get(IVec2::new(beside, row)).unwrap_or(0) }
-    })
 }
 
 /// The part of a mask that is not empty, with a border of empty pixels that may lie outside the picture: one at least,
