@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The studio as a person uses it: the real program on a virtual screen, real pointer and keys. From a picture to a saved tour
-# with a boat in it, which is checked and rendered. Screenshots of every step stay in the folder that is named, or a new one.
+# with a floating boat in it and a camera path, which is opened again, mended, checked and rendered. Screenshots of every step
+# stay in the folder that is named, or a new one.
 #
 #   bash tests/studio.sh [FOLDER]
 #
@@ -34,6 +35,21 @@ drag() {
         sleep 0.5 mousemove "$3" "$4" sleep 0.5 mouseup 1 sleep 0.4
     settle
 }
+# In the tour: a camera turns by how far the pointer was moved, wherever it is.
+turn() {
+    xdotool mousemove 1250 440 sleep 0.5 mousedown 1 sleep 0.4
+    for _ in 1 2 3 4 5 6; do xdotool mousemove_relative -- "$1" 1 sleep 0.3; done
+    xdotool mouseup 1
+    settle
+}
+# The button is near the end of the panel, above the keyframes that there are.
+take_keyframe() {
+    xdotool mousemove 150 700 sleep 0.5
+    for _ in $(seq 15); do xdotool click 5 sleep 0.1; done
+    settle
+    click 69 "$1"
+}
+keyframes() { grep -c 'position:' "$work/pond.tour.ron" || true; }
 await() { # seconds, what, command
     local left=$1 what=$2
     shift 2
@@ -73,16 +89,43 @@ drag 522 466 668 542
 await 60 "the boat's mask" sh -c "sleep 3; test \"$work/.pond.tour.ron.recovery\" -nt \"$out/2_outline.png\""
 sleep 4
 shot 3_boat
-# Look to the right in the tour: a camera turns by how far the pointer was moved, wherever it is.
-xdotool mousemove 1300 340 sleep 0.5 mousedown 1 sleep 0.4
-for _ in 1 2 3 4 5 6; do xdotool mousemove_relative -- -15 1 sleep 0.3; done
-xdotool mouseup 1
-settle
+turn -15
 shot 4_flight
 press 5
 shot 5_report
+press 6
+click 223 376 # it moves as ...
+click 201 578 # ... a boat at anchor
+take_keyframe 726
+sleep 10 # what moves is built anew, and frames are few meanwhile
+settle
+turn 15
+take_keyframe 726
+shot 6_motion
 control s
 await 20 "the saved tour" test -f "$work/pond.tour.ron"
+grep -q 'motion: Floating' "$work/pond.tour.ron" || fail "the boat does not float"
+[ "$(keyframes)" = 2 ] || fail "the path has $(keyframes) keyframes, not 2"
+[ "$(grep yaw_deg "$work/pond.tour.ron" | sort -u | wc -l)" = 2 ] || fail "both keyframes look the same way"
+
+# Opened again it is the same: one more keyframe is all that another save adds.
+cp "$work/pond.tour.ron" "$out/before.tour.ron"
+kill $studio
+wait $studio 2>/dev/null || true
+"$program" edit "$work/pond.tour.ron" >>"$out/log" 2>&1 &
+studio=$!
+await 60 "the studio" sh -c "xdotool search --name 'Picture tour' >/dev/null 2>&1"
+sleep 8
+xdotool search --sync --name "Picture tour" windowfocus
+settle
+press 6
+take_keyframe 681
+shot 7_reopened
+control s
+await 20 "the tour saved again" sh -c "! cmp -s '$work/pond.tour.ron' '$out/before.tour.ron'"
+[ "$(keyframes)" = 3 ] || fail "the path has $(keyframes) keyframes, not 3"
+lost=$(diff "$out/before.tour.ron" "$work/pond.tour.ron" | grep -c '^<') || true
+[ "$lost" = 0 ] || fail "$lost lines of the tour changed when it was opened and saved again"
 
 cp -r "$work/pond.tour.ron" "$work/masks" "$out/"
 
