@@ -54,6 +54,7 @@ pub struct Cutout {
 /// # Errors
 ///
 /// [`OutlineError::NothingMarked`] without a box in the picture, a stroke on the object, or an earlier mask;
+/// [`OutlineError::BeyondBound`] when the marks lie beyond the bound;
 /// [`OutlineError::NothingStandsOut`] when all or nothing seems to be the object; [`OutlineError::WrongSize`];
 /// [`OutlineError::Cancelled`].
 pub fn grab_cut(
@@ -83,9 +84,9 @@ pub fn grab_cut(
     let Rounds { mut inside, mixtures, energies } = rounds.ok_or(OutlineError::NothingStandsOut)?;
     step(0.7, "cutting finely")?;
     let mut fine = Grid::new(picture, hints, rect, MOST_CELLS);
-    // Strokes alone do not say how far the object reaches; it hangs together with them. A box does.
-    let is_marked: Vec<bool> =
-        fine.known.iter().map(|known| hints.corners.is_none() && *known == Some(true)).collect();
+    // Strokes alone do not say how far the object reaches; it hangs together with them. A box or an earlier mask does.
+    let is_alone = hints.corners.is_none() && hints.earlier.is_none();
+    let is_marked: Vec<bool> = fine.known.iter().map(|known| is_alone && *known == Some(true)).collect();
     if fine.scaled.factor < coarse.scaled.factor {
         fine.keep_far_from_border(&coarse.scaled, &inside);
         let costs = fine.costs(&mixtures);

@@ -90,18 +90,22 @@ fn a_rough_mask_is_mended_and_a_stroke_always_holds() {
     assert_eq!((cut.mask.get(110, 90), cut.mask.get(110, 60)), (0, 255));
 }
 
+/// The disc as it is found in a box, and those polygons.
+fn disc_and(polygons: &[Vec<PicturePoint>]) -> Mask {
+    let boxed = ObjectHints { corners: loose_box(SIZE), ..Default::default() };
+    let disc = grab_cut(&picture(SIZE), &boxed, &|_, _| true).unwrap().mask;
+    polygons.iter().fold(disc, |all, corners| {
+        let polygon = Mask::from_polygon(SIZE, corners).unwrap();
+        let both = all.values().iter().zip(polygon.values()).map(|(&a, &b)| a.max(b));
+        Mask::new(SIZE, both.collect()).unwrap()
+    })
+}
+
 #[test]
 fn a_stroke_changes_only_what_it_touches() {
     // Two squares that are not the disc: the stroke speaks of the left one.
-    let square = |x: f64| {
-        [(x, 10.0), (x + 30.0, 10.0), (x + 30.0, 40.0), (x, 40.0)].map(|(x, y)| PicturePoint::new(x, y))
-    };
-    let masks = [square(10.0), square(180.0)].map(|corners| Mask::from_polygon(SIZE, &corners).unwrap());
-    let boxed = ObjectHints { corners: loose_box(SIZE), ..Default::default() };
-    let disc = grab_cut(&picture(SIZE), &boxed, &|_, _| true).unwrap().mask;
-    let values = disc.values().iter().enumerate();
-    let values = values.map(|(i, &value)| value.max(masks[0].values()[i]).max(masks[1].values()[i]));
-    let earlier = Mask::new(SIZE, values.collect()).unwrap();
+    let square = |x: f64| line(&[(x, 10.0), (x + 30.0, 10.0), (x + 30.0, 40.0), (x, 40.0)]);
+    let earlier = disc_and(&[square(10.0), square(180.0)]);
     let strokes = [Stroke::outside(vec![PicturePoint::new(18.0, 25.0), PicturePoint::new(32.0, 25.0)], 4.0)];
     let hints = ObjectHints { strokes: &strokes, earlier: Some(&earlier), ..Default::default() };
     let cut = grab_cut(&picture(SIZE), &hints, &|_, _| true).unwrap();
@@ -116,6 +120,26 @@ fn a_stroke_changes_only_what_it_touches() {
 }
 
 #[test]
+fn a_leak_is_taken_back_and_the_piece_it_leaked_from_stays() {
+    // A stripe runs from a second piece of the disc's colors; only the disc is stroked inside.
+    let mut pixels = picture(SIZE).pixels().to_vec();
+    for (x, y) in (40..150_u32).flat_map(|y| (185..215_u32).map(move |x| (x, y))) {
+        pixels[(y * SIZE.x + x) as usize] = picture(SIZE).pixel(110, y);
+    }
+    let two = Picture::new(SIZE, pixels).unwrap();
+    let piece = line(&[(185.0, 40.0), (215.0, 40.0), (215.0, 150.0), (185.0, 150.0)]);
+    let leak = line(&[(165.0, 20.0), (215.0, 20.0), (215.0, 40.0), (165.0, 40.0)]);
+    let earlier = disc_and(&[piece, leak]);
+    let strokes = [
+        Stroke::inside(line(&[(110.0, 80.0), (110.0, 100.0)]), 4.0),
+        Stroke::outside(line(&[(175.0, 28.0), (205.0, 28.0)]), 4.0),
+    ];
+    let hints = ObjectHints { strokes: &strokes, earlier: Some(&earlier), ..Default::default() };
+    let cut = grab_cut(&two, &hints, &|_, _| true).unwrap();
+    assert_eq!([(190, 28), (200, 95), (110, 90)].map(|(x, y)| cut.mask.get(x, y)), [0, 255, 255]);
+}
+
+#[test]
 fn nothing_crosses_a_bound() {
     let at = |x: f64, y: f64| PicturePoint::new(x, y);
     let strokes = [Stroke::inside(vec![at(110.0, 94.0), at(110.0, 130.0)], 4.0)];
@@ -127,7 +151,23 @@ fn nothing_crosses_a_bound() {
     let mask = cut(90.0, false).unwrap().mask;
     assert!((0..SIZE.x).all(|x| mask.get(x, 89) == 0), "the line is crossed");
     assert_eq!((mask.get(90, 92), mask.get(110, 125), mask.get(20, 125)), (255, 255, 0));
-    assert_eq!(cut(-5.0, true), Err(OutlineError::NothingMarked), "nothing of the picture is on that side");
+    assert_eq!(cut(-5.0, true), Err(OutlineError::BeyondBound), "nothing of the picture is on that side");
+}
+
+#[test]
+fn a_stroke_across_a_slanted_bound_speaks_of_its_own_side() {
+    // From the upper left to the lower right corner; the region stays below.
+    let bound =
+        Some(Bound { line: [PicturePoint::new(0.0, 0.0), PicturePoint(SIZE.as_dvec2())], is_above: false });
+    let beyond = line(&[(100.0, 40.0), (150.0, 40.0), (150.0, 70.0), (100.0, 70.0)]);
+    let earlier = disc_and(&[beyond]);
+    let strokes = [Stroke::inside(line(&[(110.0, 60.0), (110.0, 120.0)]), 4.0)];
+    let hints = ObjectHints { strokes: &strokes, earlier: Some(&earlier), bound, ..Default::default() };
+    let cut = grab_cut(&picture(SIZE), &hints, &|_, _| true).unwrap().mask;
+    assert_eq!((cut.get(110, 60), cut.get(110, 110)), (255, 255), "what was beyond is not erased by it");
+    let hints = ObjectHints { earlier: None, ..hints };
+    let cut = grab_cut(&picture(SIZE), &hints, &|_, _| true).unwrap().mask;
+    assert_eq!((cut.get(110, 60), cut.get(110, 110)), (0, 255));
 }
 
 #[test]

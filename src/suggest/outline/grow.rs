@@ -60,7 +60,8 @@ impl Default for GrowOptions {
 ///
 /// # Errors
 ///
-/// [`OutlineError::NothingMarked`] when no pixel (on the bound's side) lies under the stroke.
+/// [`OutlineError::NothingMarked`] when no pixel lies under the stroke, [`OutlineError::BeyondBound`] when none of them is on
+/// the bound's side.
 pub fn grow(picture: &Picture, stroke: &Stroke, options: GrowOptions) -> Result<Mask, OutlineError> {
     let tolerance =
         if options.tolerance.is_finite() { options.tolerance.clamp(0.1, 10.0) as f32 } else { 1.0 };
@@ -72,10 +73,13 @@ pub fn grow(picture: &Picture, stroke: &Stroke, options: GrowOptions) -> Result<
         .collect();
     let mut inside = vec![false; scaled.colors.len()];
     let mut pieces: Vec<Vec<usize>> = Vec::new();
+    let mut is_drawn = false;
     for piece in stroke.pieces() {
         let mut cells = Vec::new();
         for_each_near(size, &piece, stroke.reach(), |x, y, _| {
-            if let Some(cell) = scaled.cell(x, y).filter(|cell| is_allowed[*cell] && !inside[*cell]) {
+            let Some(cell) = scaled.cell(x, y) else { return };
+            is_drawn = true;
+            if is_allowed[cell] && !inside[cell] {
                 inside[cell] = true;
                 cells.push(cell);
             }
@@ -84,7 +88,7 @@ pub fn grow(picture: &Picture, stroke: &Stroke, options: GrowOptions) -> Result<
     }
     pieces.retain(|cells| !cells.is_empty());
     if pieces.is_empty() {
-        return Err(OutlineError::NothingMarked);
+        return Err(if is_drawn { OutlineError::BeyondBound } else { OutlineError::NothingMarked });
     }
     let matter = Matter::of(&scaled);
     let kinds: Vec<Kind> = pieces.par_iter().map(|cells| Kind::of(&matter, cells, tolerance)).collect();

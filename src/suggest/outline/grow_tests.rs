@@ -72,7 +72,7 @@ fn a_bound_is_not_crossed_whichever_end_comes_first() {
         assert!(rows[52..].iter().all(|count| *count == 0), "{rows:?}");
         let bound = Some(Bound { line, is_above: false });
         let refused = grow(&picture(), &click, GrowOptions { bound, ..Default::default() });
-        assert_eq!(refused, Err(OutlineError::NothingMarked));
+        assert_eq!(refused, Err(OutlineError::BeyondBound));
     }
 }
 

@@ -91,7 +91,7 @@ impl ObjectHints<'_> {
     pub(super) fn rect(&self, size: UVec2) -> Result<PixelRect, OutlineError> {
         let rect = self.unbound_rect(size)?;
         let rect = self.bound.map_or(rect, |bound| bound.clip(rect));
-        if rect.size().min_element() == 0 { Err(OutlineError::NothingMarked) } else { Ok(rect) }
+        if rect.size().min_element() == 0 { Err(OutlineError::BeyondBound) } else { Ok(rect) }
     }
 
     fn unbound_rect(&self, size: UVec2) -> Result<PixelRect, OutlineError> {
@@ -168,7 +168,8 @@ impl ObjectHints<'_> {
         if let Some(bound) = self.bound {
             for (cell, known) in known.iter_mut().enumerate() {
                 if !bound.holds(scaled.pixel(cell)) {
-                    *known = Some(false);
+                    // The line says so, not the stroke that crosses it.
+                    (*known, is_stroked[cell]) = (Some(false), false);
                 }
             }
         }

@@ -40,6 +40,9 @@ pub enum OutlineError {
     /// No mark says where the object is.
     #[error("no mark says where it is; draw a stroke on it, or a box around it")]
     NothingMarked,
+    /// The marks lie on the other side of the line that the region does not cross.
+    #[error("the mark lies on the other side of the horizon; draw on this side, or move the horizon")]
+    BeyondBound,
     /// The marks leave one side without a pixel.
     #[error("nothing here differs from its surroundings; draw a stroke on the object and one beside it")]
     NothingStandsOut,
