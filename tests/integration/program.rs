@@ -236,10 +236,21 @@ fn one_frame_may_be_a_file_but_none_of_the_tour_s_own() {
     let folder = folder_with_tour();
     let view = |to: &str| run(folder.path(), &["render", "pond.tour.ron", "--reference", "--out", to]);
     let own = fs::read(folder.path().join("pond.png")).unwrap();
-    for (out, why) in [("pond.png", "belongs to the tour"), ("pond.tour.ron", "belongs to the tour")] {
-        let refused = view(out);
-        assert_eq!(refused.status.code(), Some(2));
-        assert!(stderr(&refused).contains(why), "{}", stderr(&refused));
+    fs::write(folder.path().join("views.json"), r#"[{"name": "pond", "position": [0, 1.5, 0]}]"#).unwrap();
+    let render = ["render", "pond.tour.ron", "--reference", "--out"];
+    let refusals: [&[&str]; 5] = [
+        &["pond.png"],
+        &["pond.tour.ron"],
+        &[".", "--views", "views.json"],
+        &["pond.png", "--views", "views.json"],
+        &["./masks/../pond.png"],
+    ];
+    let rendered = refusals.map(|end| [&render[..], end].concat());
+    let drawn = ["--sheet", "--depth"].map(|what| vec!["check", "pond.tour.ron", what, "pond.png"]);
+    for arguments in rendered.into_iter().chain(drawn) {
+        let refused = run(folder.path(), &arguments);
+        assert_eq!(refused.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&refused).contains("belongs to the tour"), "{arguments:?}: {}", stderr(&refused));
     }
     assert!(fs::read(folder.path().join("pond.png")).unwrap() == own, "the picture was touched");
     fs::write(folder.path().join("notes.txt"), "mine").unwrap();

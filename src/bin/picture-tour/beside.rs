@@ -20,6 +20,26 @@ pub(crate) fn refuse_existing(out: &Path, force: bool) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Refuses to write over what a tour is made of: its own file, and those that it names.
+pub(crate) fn refuse_own(
+    file: Option<&Path>,
+    tour: &Tour,
+    outs: impl IntoIterator<Item = PathBuf>,
+) -> Result<(), Failure> {
+    let Some(file) = file else { return Ok(()) };
+    let named = tour.files().into_iter().map(|(_, name)| name.in_folder(folder(file)));
+    let own: Vec<PathBuf> =
+        named.chain([file.to_owned()]).filter_map(|own| own.canonicalize().ok()).collect();
+    // What cannot be found is not there yet.
+    match outs.into_iter().find(|out| out.canonicalize().is_ok_and(|out| own.contains(&out))) {
+        Some(out) => Err(Failure::CannotRun(format!(
+            "{} belongs to the tour; name another file or folder",
+            out.display()
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// The name of a folder for the masks of the tour at `out` that is not there yet: masks that are there may be somebody's
 /// work, and other tours name them.
 pub(crate) fn new_masks_folder(out: &Path) -> Result<RelativePath, Failure> {

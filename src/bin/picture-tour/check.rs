@@ -10,6 +10,7 @@ use std::process::ExitCode;
 use bevy_picture_tour::maps::HALO_LIFT;
 use bevy_picture_tour::solve::Label;
 
+use crate::beside;
 use crate::depth;
 use crate::failure::Failure;
 use crate::open;
@@ -54,6 +55,8 @@ pub(crate) fn run(tour: Option<&Path>, json: bool, drawings: &Drawings) -> Resul
 
 fn report(tour: Option<&Path>, drawings: &Drawings) -> Result<Report, Failure> {
     let opened = open::open(tour)?;
+    let drawn = [&drawings.sheet, &drawings.depth].into_iter().flatten().cloned();
+    beside::refuse_own(tour, opened.asset.tour(), drawn)?;
     let source = depth::source_of(&opened, tour)?;
     if let (None, Some(path)) = (&source, &drawings.depth) {
         return Err(Failure::CannotRun(format!(

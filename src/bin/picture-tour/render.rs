@@ -12,12 +12,12 @@ use bevy_picture_tour::camera::PinholeCamera;
 use bevy_picture_tour::camera::fitted;
 use bevy_picture_tour::picture::PngPixels;
 use bevy_picture_tour::picture::save_png;
-use bevy_picture_tour::tour::Tour;
 use glam::UVec2;
 use indicatif::ProgressBar;
 
 use crate::args::MAX_SIDE;
 use crate::args::RenderArguments;
+use crate::beside;
 use crate::failure::Failure;
 use crate::film::{self, Film};
 use crate::frames::{self, Frame};
@@ -32,9 +32,10 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
     watch_for_ctrl_c()?;
     let opened = open::open(arguments.tour.as_deref())?;
     let mut frames = frames::planned(arguments, opened.asset.tour())?;
-    refuse_own_files(arguments, opened.asset.tour())?;
     let folder = folder_of(&arguments.out, &mut frames)?;
     let is_film = film::is_film(&arguments.out);
+    let files = frames.iter().filter(|_| !is_film).map(|frame| folder.join(&frame.file));
+    beside::refuse_own(arguments.tour.as_deref(), opened.asset.tour(), files.chain([arguments.out.clone()]))?;
     if is_film && !arguments.path && arguments.loop_seconds.is_none() {
         return Err(Failure::CannotRun(
             "a film needs something that goes on; add --path or --loop SECONDS, or name a folder with --out"
@@ -94,21 +95,6 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses to write over what the tour is made of.
-fn refuse_own_files(arguments: &RenderArguments, tour: &Tour) -> Result<(), Failure> {
-    let Some((file, out)) = arguments.tour.as_deref().zip(arguments.out.canonicalize().ok()) else {
-        return Ok(());
-    };
-    let own = tour.files().into_iter().map(|(_, name)| file.with_file_name(name.as_str()));
-    if own.chain([file.to_owned()]).any(|own| own.canonicalize().is_ok_and(|own| own == out)) {
-        return Err(Failure::CannotRun(format!(
-            "{} belongs to the tour; name another file or folder with --out",
-            arguments.out.display()
-        )));
-    }
-    Ok(())
-}
-
 /// The folder that frames are written to; one frame alone may be named as a file.
 fn folder_of(out: &Path, frames: &mut [Frame]) -> Result<PathBuf, Failure> {
     let is_png = out.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
@@ -123,8 +109,7 @@ fn folder_of(out: &Path, frames: &mut [Frame]) -> Result<PathBuf, Failure> {
             )));
         }
     }
-    let parent = out.parent().filter(|parent| !parent.as_os_str().is_empty());
-    Ok(parent.unwrap_or(Path::new(".")).to_owned())
+    Ok(beside::folder(out).to_owned())
 }
 
 /// Lets the first Ctrl-C end the work after the frame at hand, and a second one at once.
