@@ -35,6 +35,8 @@ const SLOPE: f32 = 2.0;
 const SUMMIT: f32 = 0.7;
 /// Ends of a row are nearer than this, pixels.
 const NOWHERE: f32 = 1e5;
+/// What is missing of the uppermost row over less than this share of the picture's width is a gap in a mask, not an end.
+const GAP: f64 = 0.02;
 
 /// A band's coverage across the whole frame: folded in from the sides, its uppermost row prolonged upwards, the less the
 /// farther from where that ends.
@@ -56,7 +58,14 @@ pub(super) fn across(inside: &Grid<u8>, picture: UVec2) -> Grid<u8> {
         inside.get(IVec2::new(beside, y.max(0))).unwrap_or(0)
     };
     let most = -SUMMIT * low.y as f32;
-    let to_end = distances(extent.x as usize, 1, |column| covered(low.x + column as i32, 0) < 128);
+    let is_missing: Vec<bool> = (low.x..high.x).map(|x| covered(x, 0) < 128).collect();
+    let runs = is_missing.chunk_by(|a, b| a == b);
+    let is_end: Vec<bool> = runs
+        .flat_map(|run| {
+            std::iter::repeat_n(run[0] && run.len() as f64 >= GAP * f64::from(picture.x), run.len())
+        })
+        .collect();
+    let to_end = distances(extent.x as usize, 1, |column| is_end[column]);
     Grid::from_fn(IVec2::new(low.x, top), extent, |pixel| {
         let own = covered(pixel.x, pixel.y);
         if pixel.y >= 0 {
@@ -118,6 +127,13 @@ mod tests {
         }
         let summit = -(SUMMIT * 300.0 * BEYOND_BORDER as f32).ceil() as i32;
         assert!((0..600).all(|x| whole.get(IVec2::new(x, summit)) == Some(0)), "a hill without end");
+        // Pixels that a soft mask left out are no end.
+        let mut speckled = inside.clone();
+        for x in [250, 251, 330] {
+            speckled.cells[x] = 90;
+        }
+        let speckled = across(&speckled, size);
+        assert!([248, 253, 329].iter().all(|&x| speckled.get(IVec2::new(x, -10)) == Some(255)), "a notch");
         // What has no end in the picture has none above.
         let wall = across(&Grid::filled(IVec2::ZERO, size, 255), size);
         assert!(wall.get(IVec2::new(5, -5)).unwrap_or(255) == 255);

@@ -79,6 +79,22 @@ impl Mipmapped {
         Self { layer, coarser }
     }
 
+    /// The columns of a layer with gutters from `first` on, a multiple of [`GUTTER`], and of its levels: `width` of them, or as
+    /// many as there are, at least one.
+    #[must_use]
+    pub(crate) fn columns(&self, first: u32, width: u32) -> Self {
+        let first = first.min((self.layer.size.x.max(1) - 1) / GUTTER * GUTTER);
+        let width = width.clamp(1, (self.layer.size.x - first).max(1));
+        let cut = |level: usize| {
+            let from = self.level(level);
+            let size = mip_size(UVec2::new(width, self.layer.size.y), level);
+            let origin = from.origin + IVec2::new(first as i32, 0);
+            let start = IVec2::new((first >> level) as i32, 0) - origin;
+            Layer::from_fn(origin, size, |pixel| from.get(pixel + start + from.origin).unwrap_or_default())
+        };
+        Self { layer: cut(0), coarser: (1..=MIP_LEVELS).map(cut).collect() }
+    }
+
     /// Level `level`, 0 being the layer itself.
     ///
     /// # Panics
@@ -233,6 +249,25 @@ mod tests {
             assert_eq!(map.sample(PicturePoint::new(-200.0, 11.5), level)[3], 0.0, "level {level}");
         }
         assert!(map.sample(PicturePoint::new(6.5, 11.5), 3.0)[3] > 0.0);
+    }
+
+    #[test]
+    fn columns_keep_the_texels_of_every_level() {
+        let layer = Layer::from_fn(IVec2::new(-40, 3), UVec2::new(200, 33), |pixel| {
+            [(pixel.x * 7 + pixel.y * 3) as u8, 0, pixel.y as u8, 255]
+        });
+        let whole = Mipmapped::from(layer);
+        let part = whole.columns(48, 100);
+        assert_eq!(
+            (part.layer.origin, part.layer.size),
+            (IVec2::new(-40 - 16 + 48, 3 - 16), UVec2::new(100, 65))
+        );
+        for level in [0.0, 1.0, 2.0, 2.5] {
+            let at = PicturePoint::new(31.3, 17.2);
+            assert_eq!(part.sample(at, level), whole.sample(at, level), "level {level}");
+        }
+        let last = whole.columns(1000, 1000);
+        assert_eq!((last.layer.origin.x, last.layer.size.x), (-56 + 224, 232 - 224));
     }
 
     #[test]

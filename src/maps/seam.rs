@@ -54,7 +54,7 @@ impl<'a> Seen<'a> {
     fn color(&self, corner: IVec2, side: i32) -> Option<Vec3> {
         let is_free = |pixel: &IVec2| {
             let covers =
-                |&other: &usize| self.coverage.alpha[other].get(*pixel).is_some_and(|covered| covered > 0);
+                |&other: &usize| self.coverage.grown[other].get(*pixel).is_some_and(|covered| covered > 0);
             self.coverage.water.index(*pixel).is_some() && !self.nearer.iter().any(covers)
         };
         let square = (0..side * side).map(|i| corner + IVec2::new(i % side, i / side));

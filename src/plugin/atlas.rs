@@ -6,9 +6,9 @@
 
 use std::borrow::Cow;
 
-use bevy::math::{IVec2, UVec2};
+use bevy::math::UVec2;
 
-use crate::maps::{GUTTER, Layer, MIP_LEVELS, Mipmapped};
+use crate::maps::{Layer, MIP_LEVELS, Mipmapped};
 
 /// Texels of the layer that a texel of the coarsest mip level stands for, along a side.
 const BLOCK: u32 = 1 << MIP_LEVELS;
@@ -139,15 +139,14 @@ pub(super) fn trimmed(map: &Mipmapped, picture: UVec2, largest: u32) -> Cow<'_, 
     if layer.size.x <= largest || picture.x > largest {
         return Cow::Borrowed(map);
     }
-    let beside = ((largest - picture.x) / 2).saturating_sub(GUTTER) as i32;
-    let low = layer.origin.x.max(-beside);
-    let high = (layer.origin.x + layer.size.x as i32).min(picture.x as i32 + beside).max(low + 1);
-    let origin = IVec2::new(low, layer.origin.y);
-    let size = UVec2::new((high - low) as u32, layer.size.y);
-    Cow::Owned(Layer::from_fn(origin, size, |pixel| layer.get(pixel).unwrap_or([0; 4])).into())
+    let beside = ((largest - picture.x) / 2) as i32;
+    let first = ((-beside - layer.origin.x).max(0) as u32).next_multiple_of(BLOCK);
+    let end = (picture.x as i32 + beside - layer.origin.x).max(0) as u32;
+    Cow::Owned(map.columns(first, end.saturating_sub(first).min(largest / BLOCK * BLOCK)))
 }
 
-/// A map at another scale, averaged in premultiplied linear light; the map itself at scale 1.
+/// A map at another scale, averaged in premultiplied linear light; the map itself at scale 1. Its levels are new ones, in
+/// which seams do not go on.
 fn scaled(map: &Mipmapped, scale: f32) -> Cow<'_, Mipmapped> {
     use crate::picture::PicturePoint;
     use crate::picture::color::srgb_from_linear;
@@ -175,6 +174,8 @@ fn scaled(map: &Mipmapped, scale: f32) -> Cow<'_, Mipmapped> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::maps::GUTTER;
+    use bevy::math::IVec2;
 
     fn map(width: u32, height: u32, code: u8) -> Mipmapped {
         Mipmapped::levels_of(Layer::filled(IVec2::ZERO, UVec2::new(width, height), [code, code, code, 255]))
