@@ -2,6 +2,7 @@
 
 use crate::picture::PicturePoint;
 use crate::solve::{Label, Solution};
+use crate::tour::edit::RegionAt;
 use crate::tour::{Problem, Region, Support, TourFile};
 
 use super::Step;
@@ -35,6 +36,8 @@ pub enum Need {
     /// The marked horizon is so many pixels from the solved one.
     HorizonOff(f64),
     Water,
+    /// This region is a first guess that nobody has looked at.
+    Guess(RegionAt),
     Background,
     BackgroundUnsure,
     Objects,
@@ -76,10 +79,15 @@ pub fn step_state(
     let (lamp, mut needs) = match step {
         Step::Horizon => horizon(tour, solution, width),
         Step::Water => match &tour.water {
-            Some(water) if is_drawn(&water.region) => (Lamp::Good, Vec::new()),
+            Some(water) if is_drawn(&water.region) => looked_at(Lamp::Good, tour, &[RegionAt::Water]),
             _ => (Lamp::Missing, vec![Need::Water]),
         },
-        Step::Ground => background(tour, solution),
+        Step::Ground => {
+            let (lamp, mut needs) = background(tour, solution);
+            let (lamp, guesses) = looked_at(lamp, tour, &[RegionAt::Ground, RegionAt::Sky]);
+            needs.extend(guesses);
+            (lamp, needs)
+        }
         Step::Objects => objects(tour, solution),
         Step::Pairs => pairs(tour, solution, width),
         Step::Motion => motion(tour),
@@ -124,6 +132,12 @@ fn is_drawn(region: &Region<String>) -> bool {
         Region::Polygon(corners) => corners.len() >= 3,
         Region::Mask(_) => true,
     }
+}
+
+/// A lamp that is not good while one of these regions is a first guess.
+fn looked_at(lamp: Lamp, tour: &TourFile, regions: &[RegionAt]) -> (Lamp, Vec<Need>) {
+    let needs: Vec<Need> = regions.iter().copied().filter(|at| at.is_guess(tour)).map(Need::Guess).collect();
+    (if needs.is_empty() { lamp } else { lamp.min(Lamp::Rough) }, needs)
 }
 
 fn label(solution: Option<&Solution>, name: &str) -> Option<Label> {
@@ -247,6 +261,9 @@ impl Need {
             Self::HorizonUnsure => t.need.horizon_unsure.into(),
             Self::HorizonOff(pixels) => with(t.need.horizon_off, format!("{pixels:.0}")),
             Self::Water => t.need.water.into(),
+            Self::Guess(RegionAt::Sky) => t.need.guessed_sky.into(),
+            Self::Guess(RegionAt::Ground) => t.need.guessed_ground.into(),
+            Self::Guess(_) => t.need.guessed_water.into(),
             Self::Background => t.need.background.into(),
             Self::BackgroundUnsure => t.need.background_unsure.into(),
             Self::Objects => t.need.objects.into(),

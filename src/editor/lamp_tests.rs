@@ -48,6 +48,29 @@ fn a_horizon_is_rough_until_the_solution_confirms_it() {
 }
 
 #[test]
+fn what_was_drafted_is_rough_until_somebody_has_looked_at_it() {
+    let (mut tour, solution) = (pond(), solved_pond());
+    assert_eq!(lamp(Step::Water, &tour, Some(&solution)).lamp, Lamp::Good);
+    let is_rough = |tour: &TourFile| {
+        lamp(Step::Water, tour, Some(&solution))
+            == StepState { lamp: Lamp::Rough, needs: vec![Need::Guess(RegionAt::Water)] }
+    };
+    for (name, is_guess) in [
+        ("masks/draft/water.png", true),
+        ("masks/draft-2/water.png", true),
+        ("pond.masks/water.png", true),
+        ("pond.masks_2/water.png", true),
+        ("masks/water.png", false),
+        ("masks/drafty/water.png", false),
+        ("masks.old/water.png", false),
+        ("water.png", false),
+    ] {
+        tour.water.as_mut().unwrap().region = Region::Mask(name.into());
+        assert_eq!(is_rough(&tour), is_guess, "{name}");
+    }
+}
+
+#[test]
 fn pairs_are_good_when_enough_agree_and_the_lens_is_known() {
     let (mut tour, mut solution) = (pond(), solved_pond());
     let water = tour.water.as_mut().unwrap();

@@ -83,6 +83,8 @@ pub enum Request {
         /// What was drawn.
         stroke: BrushStroke,
     },
+    /// This region, a first guess of the machine, is right.
+    TakeGuess(RegionAt),
     /// Paint on a region's mask, or erase; a polygon becomes a mask first. Inside a gesture.
     Paint {
         /// Which region.

@@ -8,7 +8,7 @@ use super::super::egui::Ui;
 use super::super::field::{self, Number};
 use super::super::text::with;
 use super::super::work::Work;
-use super::super::{Out, Studio};
+use super::super::{Out, Request, Studio};
 use super::tool_button;
 
 /// The tools of a region, and what it is now.
@@ -41,7 +41,13 @@ pub(super) fn region_ui(ui: &mut Ui, at: RegionAt, studio: &mut Studio, work: &W
             ui.weak(with(t.region.corners, corners.len()));
         }
         Some(Region::Mask(name)) => {
-            ui.weak(with(t.region.mask, name));
+            // In a row of its own, which stays: whoever clicks twice must not hit what moves up.
+            ui.horizontal_wrapped(|ui| {
+                ui.weak(with(t.region.mask, name));
+                if at.is_guess(work.tour) && ui.button(t.region.is_right).clicked() {
+                    out.request(Request::TakeGuess(at));
+                }
+            });
         }
         _ => {
             ui.weak(t.region.none);
@@ -55,7 +61,7 @@ fn tool_settings_ui(ui: &mut Ui, at: RegionAt, studio: &mut Studio, work: &Work<
     let t = work.text;
     match studio.canvas.tool {
         Tool::Region(held) if held == at => live_wire_ui(ui, studio, work),
-        Tool::Stroke(held) | Tool::Brush(held) if held == at => brush_ui(ui, studio, work),
+        Tool::Stroke(held) | Tool::Brush(held) if held == at => brush_ui(ui, at, studio, work),
         Tool::Box(object) if at == RegionAt::Object(object) => {
             ui.weak(with(t.region.box_around, region_name(at, work)));
         }
@@ -70,15 +76,18 @@ pub(super) fn live_wire_ui(ui: &mut Ui, studio: &mut Studio, work: &Work<'_>) {
     }
 }
 
-fn brush_ui(ui: &mut Ui, studio: &mut Studio, work: &Work<'_>) {
+fn brush_ui(ui: &mut Ui, at: RegionAt, studio: &mut Studio, work: &Work<'_>) {
     let t = work.text;
     let is_brush = matches!(studio.canvas.tool, Tool::Brush(_));
     let (inside, outside) =
         if is_brush { (t.region.paint, t.region.erase) } else { (t.region.inside, t.region.outside) };
-    ui.horizontal(|ui| {
-        ui.radio_value(&mut studio.brush.inside, true, inside);
-        ui.radio_value(&mut studio.brush.inside, false, outside);
-    });
+    // Nothing can be taken from what is not there.
+    if is_drawn(at, work) {
+        ui.horizontal(|ui| {
+            ui.radio_value(&mut studio.brush.inside, true, inside);
+            ui.radio_value(&mut studio.brush.inside, false, outside);
+        });
+    }
     let most = (f64::from(work.size.max_element()) / 10.0).max(20.0);
     let radius = Number::new(t.region.radius, 0.5..=most).logarithmic().unit(" px").decimals(1);
     if let Some(wanted) = radius.slide(ui, studio.brush.radius) {

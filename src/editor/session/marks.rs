@@ -53,10 +53,19 @@ impl Session {
         }
     }
 
-    /// What a region's mask is called.
+    /// Takes a region that is a first guess for right: it gets a mask of its own.
+    pub(super) fn take_guess(&mut self, at: RegionAt) {
+        let Some(picture) = self.picture() else { return };
+        let (scale, size) = (self.scale(&picture.picture), picture.picture.size());
+        if let Some(mask) = self.mask_of(at, size, scale) {
+            self.set_mask(at, &mask);
+        }
+    }
+
+    /// What a region's mask is called; what is done to a first guess goes into another one.
     fn name_of(&self, at: RegionAt) -> String {
         let Some(desk) = &self.desk else { return String::new() };
-        if let Some(Region::Mask(name)) = at.get(desk.tour()) {
+        if let Some(Region::Mask(name)) = at.get(desk.tour()).filter(|_| !at.is_guess(desk.tour())) {
             return name.clone();
         }
         let tour = desk.tour();
@@ -87,12 +96,12 @@ impl Session {
         }
     }
 
-    /// Paints a piece of a stroke on a region's mask; a polygon becomes a mask first.
+    /// Paints a piece of a stroke on a region's mask; a polygon becomes a mask first, and a first guess one of its own.
     pub(super) fn paint(&mut self, at: RegionAt, stroke: &BrushStroke, hardness: f64) {
         let Some(picture) = self.picture() else { return };
         let (scale, size) = (self.scale(&picture.picture), picture.picture.size());
-        let drawn = self.desk.as_ref().and_then(|desk| at.get(desk.tour()));
-        if !matches!(drawn, Some(Region::Mask(_))) {
+        let Some(tour) = self.desk.as_ref().map(|desk| desk.tour()) else { return };
+        if !matches!(at.get(tour), Some(Region::Mask(_))) || at.is_guess(tour) {
             let mask = self
                 .mask_of(at, size, scale)
                 .or_else(|| Mask::new(size, vec![0; picture.picture.pixels().len()]).ok());

@@ -220,6 +220,7 @@ impl Session {
             Request::RefineBox { object, corners } => {
                 self.refine(RegionAt::Object(object), Some(corners), None);
             }
+            Request::TakeGuess(at) => self.take_guess(at),
             Request::RefineStroke { at, stroke } => self.refine(at, None, Some(stroke)),
             Request::Paint { at, stroke, hardness } => self.paint(at, &stroke, hardness),
             other => self.carry_out_without_desk(other),

@@ -6,7 +6,7 @@ use super::*;
 use crate::editor::egui::accesskit::Role;
 use crate::editor::egui::{Event, Key, Modifiers};
 use crate::tour::edit::{ListEdit, RegionAt};
-use crate::tour::{Floating, FocalLength, Jonswap, Octaves, Scale, Sea, Sway, SwayKind};
+use crate::tour::{Floating, FocalLength, Jonswap, Octaves, Region, Scale, Sea, Sway, SwayKind};
 use crate::water::body::Hull;
 use crate::water::sea::fetch;
 
@@ -41,6 +41,20 @@ fn the_scale_is_picked_and_typed() {
             .iter()
             .collect::<Vec<_>>()
     );
+}
+
+#[test]
+fn a_first_guess_is_taken_for_right_once() {
+    let mut bench = Bench::at(Step::Water);
+    let mut tour = pond();
+    tour.water.as_mut().unwrap().region = Region::Mask("masks/draft/water.png".into());
+    bench.draft = Some(Draft::new(tour));
+    let mut harness = small(bench);
+    press(&mut harness, "It is right");
+    assert_eq!(harness.state().log, [Request::TakeGuess(RegionAt::Water)]);
+    // What somebody has drawn is no guess.
+    let harness = small(Bench::at(Step::Water));
+    assert!(harness.query_by_label("It is right").is_none());
 }
 
 #[test]

@@ -56,6 +56,7 @@ texts! {
         boxed: "Find in a box",
         strokes: "Mend by strokes",
         brush: "Brush",
+        is_right: "It is right",
         clear: "Clear",
         corners: "Outline with {} corners",
         mask: "Mask {}",

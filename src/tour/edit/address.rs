@@ -5,7 +5,7 @@
 use crate::picture::PicturePoint;
 use crate::tour::{BackgroundPlace, Motion, Region, Scale, TourFile};
 
-use super::EditError;
+use super::{EditError, Masks};
 
 /// A region of the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -141,6 +141,13 @@ impl RegionAt {
             Self::Band(index) => tour.background.bands.get(index)?.region.as_ref(),
             Self::Object(index) => tour.objects.get(index).map(|object| &object.outline),
         }
+    }
+
+    /// Whether it is a mask by the machine that nobody has looked at yet. Bands are not guessed but measured.
+    #[must_use]
+    pub fn is_guess(self, tour: &TourFile) -> bool {
+        !matches!(self, Self::Band(_))
+            && matches!(self.get(tour), Some(Region::Mask(name)) if Masks::is_guess(name))
     }
 
     fn get_mut(self, tour: &mut TourFile) -> Option<&mut Region<String>> {

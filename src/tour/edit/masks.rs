@@ -37,6 +37,16 @@ impl Masks {
         self.0.insert(name.into(), Arc::new(mask));
     }
 
+    /// Whether a path is that of a first guess, which nobody has looked at yet: the machine's masks are in a folder of their own,
+    /// `masks/draft` (`masks/draft-2`, …) where they were drafted on a desk, else `<tour>.masks` (`<tour>.masks_2`, …).
+    pub(super) fn is_guess(path: &str) -> bool {
+        let Some((folder, _)) = path.rsplit_once('/') else { return false };
+        let drafted = folder.strip_prefix("masks/draft");
+        drafted.is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+            || folder.ends_with(".masks")
+            || folder.rsplit_once(".masks_").is_some_and(|(_, number)| number.parse::<u32>().is_ok())
+    }
+
     /// A path that no mask has yet: `masks/boat.png`, `masks/boat-2.png`, …
     ///
     /// Characters that files had better not have become `-`. With files, ask
