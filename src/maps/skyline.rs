@@ -9,15 +9,6 @@ use super::visible::HIDDEN;
 /// A side's border is the median of so many columns' nearest to what hides it, as a part of the width.
 const COLUMNS: usize = 60;
 
-/// What a column shows of a band.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Column {
-    /// Its uppermost row, with what is above it.
-    Top(i32),
-    /// Nothing that tells where it begins.
-    Unknown,
-}
-
 /// Covers what `hidden` hides of a band below its border, over runs of more than `least` columns that do not show that
 /// border. Where such a run shows the band to be missing, it ended somewhere behind, and nothing is covered.
 ///
@@ -32,24 +23,24 @@ pub(super) fn prolong(
     let size = whole.size.as_ivec2();
     let is_known = |pixel: IVec2| hidden.get(pixel).is_some_and(|hidden| u32::from(hidden) < HIDDEN);
     let is_shown = |pixel: IVec2| own.get(pixel).is_some_and(|own| own > 127);
-    let columns: Vec<Column> = (0..size.x)
+    // Where a column shows where the band begins, with what is above it.
+    let tops: Vec<Option<i32>> = (0..size.x)
         .map(|x| {
             let pixel = |y: i32| IVec2::new(x, y);
             let first = (0..size.y).find(|&y| is_known(pixel(y)) && is_shown(pixel(y)));
-            let seen = first.filter(|&y| y == 0 || is_known(pixel(y - 1)));
-            seen.map_or(Column::Unknown, Column::Top)
+            first.filter(|&y| y == 0 || is_known(pixel(y - 1)))
         })
         .collect();
     let mut begin = 0;
     while begin < size.x {
-        if columns[begin as usize] != Column::Unknown {
+        if tops[begin as usize].is_some() {
             begin += 1;
             continue;
         }
-        let run = columns[begin as usize..].iter().take_while(|column| **column == Column::Unknown).count();
+        let run = tops[begin as usize..].iter().take_while(|top| top.is_none()).count();
         let end = begin + run as i32;
-        let left = border(columns[..begin as usize].iter().rev(), size.x);
-        let right = border(columns[end as usize..].iter(), size.x);
+        let left = border(tops[..begin as usize].iter().rev(), size.x);
+        let right = border(tops[end as usize..].iter(), size.x);
         let sides = left.or(right).zip(right.or(left)).filter(|_| end - begin > least);
         if let Some((left, right)) = sides {
             let top = |x: i32| left + (right - left) * (x - begin) as f32 / (end - begin) as f32;
@@ -68,13 +59,9 @@ pub(super) fn prolong(
 }
 
 /// The row at which a side's border stands, by its nearest columns.
-fn border<'a>(columns: impl Iterator<Item = &'a Column>, width: i32) -> Option<f32> {
+fn border<'a>(tops: impl Iterator<Item = &'a Option<i32>>, width: i32) -> Option<f32> {
     let most = (width as usize / COLUMNS).max(1);
-    let rows = columns.filter_map(|column| match column {
-        Column::Top(row) => Some(*row),
-        Column::Unknown => None,
-    });
-    let mut rows: Vec<i32> = rows.take(most).collect();
+    let mut rows: Vec<i32> = tops.flatten().copied().take(most).collect();
     rows.sort_unstable();
     rows.get(rows.len() / 2).map(|&row| row as f32)
 }
