@@ -14,6 +14,7 @@ use bevy_picture_tour::editor::{EditorPlugin, Pace, Session};
 use bevy_picture_tour::plugin::PictureTourPlugin;
 
 use crate::failure::Failure;
+use crate::log;
 use crate::play::display;
 
 /// Opens the studio on a picture or tour, or on its start page.
@@ -50,6 +51,7 @@ pub(crate) fn run(file: Option<PathBuf>) -> Result<ExitCode, Failure> {
                     ..default()
                 })
                 .set(TaskPoolPlugin { task_pool_options: several_tasks() })
+                .set(log::of_the_tour())
                 .set(AssetPlugin { watch_for_changes_override: Some(false), ..default() }),
             EguiPlugin::default(),
             PictureTourPlugin,

@@ -15,6 +15,7 @@ mod failure;
 mod film;
 mod frames;
 mod leftover;
+mod log;
 mod new;
 mod open;
 mod play;

@@ -18,6 +18,7 @@ use bevy_picture_tour::plugin::{PictureTourPlugin, PictureTourSystems, TourAsset
 
 use crate::args::RenderArguments;
 use crate::failure::Failure;
+use crate::log;
 use crate::open;
 use crate::render;
 
@@ -50,6 +51,7 @@ pub(crate) fn run(tour: Option<PathBuf>) -> Result<ExitCode, Failure> {
                     primary_window: Some(Window { title, resolution: (1280, 720).into(), ..default() }),
                     ..default()
                 })
+                .set(log::of_the_tour())
                 .set(AssetPlugin { watch_for_changes_override: Some(false), ..default() }),
             EguiPlugin::default(),
             FreeCameraPlugin,
