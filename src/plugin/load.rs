@@ -9,10 +9,11 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use bevy::asset::{AssetEvent, AssetLoadFailedEvent};
 use bevy::camera::visibility::RenderLayers;
 use bevy::prelude::*;
-use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
+use bevy::tasks::futures::check_ready;
 
 use super::PictureTourSystems;
 use super::asset::{BakedTourLoader, TourAsset, TourLoader};
+use super::background::{Task, begin};
 use super::camera::TourPath;
 use super::material::{ColorPolicy, TourMaterial};
 use super::motion::{TourMotion, TourWeather};
@@ -103,7 +104,7 @@ impl TourBuilding {
         let wanted = Arc::new(AtomicBool::new(true));
         let done = Arc::new(AtomicU32::new(0));
         let (goes_on, told) = (Arc::clone(&wanted), Arc::clone(&done));
-        let task = AsyncComputeTaskPool::get().spawn(async move {
+        let task = begin(move || {
             let build = || {
                 assemble(&source, &options, &|share, _| {
                     told.store((1000.0 * share) as u32, Ordering::Relaxed);

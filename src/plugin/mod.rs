@@ -4,6 +4,7 @@
 
 mod asset;
 mod atlas;
+pub(crate) mod background;
 mod camera;
 mod load;
 mod material;

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
 
-use bevy::app::TaskPoolOptions;
 use bevy::asset::AssetPlugin;
 use bevy::prelude::*;
 use bevy::window::{ExitCondition, PresentMode, WindowCloseRequested, WindowPlugin};
@@ -50,7 +49,6 @@ pub(crate) fn run(file: Option<PathBuf>) -> Result<ExitCode, Failure> {
                     close_when_requested: false,
                     ..default()
                 })
-                .set(TaskPoolPlugin { task_pool_options: several_tasks() })
                 .set(log::of_the_tour())
                 .set(AssetPlugin { watch_for_changes_override: Some(false), ..default() }),
             EguiPlugin::default(),
@@ -81,18 +79,6 @@ fn keep_pace(session: Res<Session>, mut settings: ResMut<WinitSettings>) {
         *settings = WinitSettings { focused_mode: mode, unfocused_mode: mode };
     }
 }
-
-/// Threads enough that the draft is checked while the machine looks for an outline and the tour is refined, also on a
-/// machine with few cores.
-fn several_tasks() -> TaskPoolOptions {
-    let mut options = TaskPoolOptions::default();
-    options.async_compute.min_threads = TASKS;
-    options.async_compute.max_threads = options.async_compute.max_threads.max(TASKS);
-    options
-}
-
-/// Work that may go on at the same time in the background.
-const TASKS: usize = 4;
 
 /// Asks about unsaved work when the window is to close, and ends when the studio is left.
 fn leave(

@@ -5,12 +5,13 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use glam::DVec2;
 
-use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
+use bevy::tasks::futures::check_ready;
 
 use super::Session;
 use crate::assemble::{PlacedTour, TourSource, place, read_beside};
 use crate::motion::Recordings;
 use crate::picture::{DecodedPicture, Mask, PicturePoint};
+use crate::plugin::background::{Task, begin};
 use crate::solve::{Solution, SolveError};
 use crate::tour::edit::Draft;
 use crate::tour::{Motion, Problem, Problems, RelativePath, Sea, Tour, TourFile};
@@ -120,7 +121,7 @@ impl Session {
             let (draft, picture) = (desk.draft().clone(), desk.picture().cloned());
             let folder = desk.path().parent().unwrap_or(Path::new("")).to_owned();
             let recorded = RecordedFiles { folder, read: Arc::clone(&checking.recorded) };
-            checking.running = Some(AsyncComputeTaskPool::get().spawn(async move {
+            checking.running = Some(begin(move || {
                 let of = Some(wanted);
                 Checked { of, ..checked(&draft, picture.as_ref(), &recorded) }
             }));

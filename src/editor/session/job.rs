@@ -3,10 +3,11 @@
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex};
 
-use bevy::tasks::{AsyncComputeTaskPool, Task as Running, futures::check_ready};
+use bevy::tasks::futures::check_ready;
 
 use super::Session;
 use crate::editor::Task;
+use crate::plugin::background::{Task as Running, begin};
 
 /// What to do with the session once the work is done.
 pub(super) type Finish = Box<dyn FnOnce(&mut Session) + Send>;
@@ -79,7 +80,7 @@ impl Session {
             title: Arc::new(Mutex::new(title.to_owned())),
         };
         let told = progress.clone();
-        let running = AsyncComputeTaskPool::get().spawn(async move { work(&told) });
+        let running = begin(move || work(&told));
         let id = self.new_id();
         self.jobs.push(Job { id, progress, running, is_refinement: false });
     }

@@ -5,7 +5,7 @@ use std::time::SystemTime;
 
 use bevy::camera_controller::free_camera::{FreeCamera, FreeCameraState};
 use bevy::prelude::*;
-use bevy::tasks::{AsyncComputeTaskPool, Task, futures::check_ready};
+use bevy::tasks::futures::check_ready;
 use bevy::window::{FileDragAndDrop, PrimaryWindow};
 use bevy_picture_tour::plugin::{
     Guide, PictureTour, TourAsset, TourCamera, TourCameraState, TourFailed, TourReady,
@@ -31,7 +31,7 @@ pub(super) struct Current {
     /// When the newest of its files was written, as far as it was read.
     written: Option<SystemTime>,
     seconds: f32,
-    reading: Option<Task<Reread>>,
+    reading: Option<blocking::Task<Reread>>,
 }
 
 /// A tour file that was read, when it was begun, and what came of it.
@@ -57,7 +57,7 @@ impl Current {
     }
 
     fn read(&mut self, path: PathBuf) {
-        self.reading = Some(AsyncComputeTaskPool::get().spawn(async move {
+        self.reading = Some(blocking::unblock(move || {
             let began = SystemTime::now();
             let opened = open::open(Some(&path));
             Reread { path, began, opened }
