@@ -3,7 +3,7 @@
 use crate::picture::PicturePoint;
 use crate::solve::{Label, Solution};
 use crate::tour::edit::RegionAt;
-use crate::tour::{Problem, Region, Support, TourFile};
+use crate::tour::{BackgroundPlace, Problem, Region, Support, TourFile};
 
 use super::Step;
 use super::egui::Color32;
@@ -40,6 +40,7 @@ pub enum Need {
     Guess(RegionAt),
     Background,
     BackgroundUnsure,
+    BackgroundPairs,
     Objects,
     Outline(String),
     /// This object's contact line is not below the horizon.
@@ -176,10 +177,12 @@ fn distance_below([a, b]: [PicturePoint; 2], points: [PicturePoint; 2]) -> f64 {
 
 fn background(tour: &TourFile, solution: Option<&Solution>) -> (Lamp, Vec<Need>) {
     let is_marked = tour.background.place.is_some() || !tour.background.bands.is_empty();
+    let has_foot = matches!(tour.background.place, Some(BackgroundPlace::Contact(_)));
+    let unsure = if has_foot { Need::BackgroundPairs } else { Need::BackgroundUnsure };
     match label(solution, "background_distance") {
         Some(Label::Measured) => (Lamp::Good, Vec::new()),
-        Some(Label::Weak) => (Lamp::Rough, vec![Need::BackgroundUnsure]),
-        Some(Label::Assumed) | None if is_marked => (Lamp::Rough, vec![Need::BackgroundUnsure]),
+        Some(Label::Weak) => (Lamp::Rough, vec![unsure]),
+        Some(Label::Assumed) | None if is_marked => (Lamp::Rough, vec![unsure]),
         Some(Label::Assumed) | None => (Lamp::Missing, vec![Need::Background]),
     }
 }
@@ -266,6 +269,7 @@ impl Need {
             Self::Guess(_) => t.need.guessed_water.into(),
             Self::Background => t.need.background.into(),
             Self::BackgroundUnsure => t.need.background_unsure.into(),
+            Self::BackgroundPairs => t.need.background_pairs.into(),
             Self::Objects => t.need.objects.into(),
             Self::Outline(name) => with(t.need.outline, name),
             Self::Contact(name) => with(t.need.contact, name),

@@ -24,6 +24,7 @@ mod spread;
 mod symmetry;
 #[cfg(test)]
 mod tests;
+mod thin;
 
 pub use advice::{Advice, advise};
 pub use draft::{Draft, DraftError, LEAST_SIDE, Part, Remark, draft};

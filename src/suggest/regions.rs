@@ -14,6 +14,7 @@ use super::guide::Guide;
 use super::patches::Patches;
 use super::reflection::Reflection;
 use super::spread::{Evidence, spread};
+use super::thin::without_thin;
 use crate::picture::{Mask, Picture, PicturePoint};
 
 /// Rows of the small picture, at most.
@@ -111,7 +112,8 @@ pub fn suggest_regions(
             "where the picture mirrors what stands above it, and what looks like that",
             trust,
         ),
-        sky: region(sky, "what looks like the upper border and is joined to it", 0.9),
+        sky: region(sky, "what looks like the upper border and is joined to it", 0.9)
+            .map(|sky| SuggestedRegion { mask: without_thin(picture, sky.mask), ..sky }),
         ground: region(Some(ground), ground_reason, if reflection.is_some() { 0.6 } else { 0.3 }),
     }
 }

@@ -35,6 +35,7 @@ texts! {
         guessed_sky: "The sky is a first guess: mend it, or say that it is right.",
         background: "Say where the background stands: draw where it meets the water, or mark pairs on it.",
         background_unsure: "The background's distance is uncertain: draw where it meets the water, or mark pairs on it.",
+        background_pairs: "Its foot alone does not tell the background's distance: a horizon that is sure would, and pairs on it.",
         objects: "Nothing is outlined. What stands in the water or near the camera stays flat until it is.",
         outline: "“{}” has no outline.",
         contact: "The feet of “{}” are not below the horizon.",

@@ -17,7 +17,7 @@ pub(super) fn random(x: i64, y: i64, seed: u64) -> f64 {
 }
 
 /// Smooth noise, about −1 to 1, `scale` units from bump to bump.
-pub(super) fn noise(at: DVec2, scale: f64, seed: u64) -> f64 {
+pub(in crate::suggest) fn noise(at: DVec2, scale: f64, seed: u64) -> f64 {
     let p = at / scale;
     let (cell, part) = (p.floor(), p - p.floor());
     let t = part * part * (3.0 - 2.0 * part);
@@ -40,7 +40,7 @@ pub(super) fn land(at: DVec2, seed: u64) -> f64 {
     sky + (slope - sky) * share
 }
 
-pub(super) fn picture(size: UVec2, value: impl Fn(DVec2) -> f64) -> Picture {
+pub(in crate::suggest) fn picture(size: UVec2, value: impl Fn(DVec2) -> f64) -> Picture {
     let pixels = (0..size.y).flat_map(|y| (0..size.x).map(move |x| (x, y))).map(|(x, y)| {
         let code = value(DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5)).round().clamp(0.0, 255.0) as u8;
         [code; 3]

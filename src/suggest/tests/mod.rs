@@ -1,6 +1,6 @@
 //! What is proposed for made pictures whose answers are known.
 
-mod made;
+pub(super) mod made;
 
 use glam::{DVec2, UVec2};
 
