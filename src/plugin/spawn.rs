@@ -48,6 +48,7 @@ pub(super) struct ShownTour {
     /// Per part of `parts` its material, and that of its depth pass; the water's is last.
     pub materials: Vec<[Handle<TourMaterial>; 2]>,
     /// Per part of `parts` its mesh.
+    #[cfg_attr(not(feature = "editor"), expect(dead_code, reason = "only the studio moves planes"))]
     pub meshes: Vec<Handle<Mesh>>,
     pub components: usize,
     /// The moving water.
