@@ -173,10 +173,14 @@ fn on_the_open_sea_the_sky_closes_the_scene() {
     let open = place(&read(&Tour::check(file.clone()).unwrap(), &files)).unwrap();
     assert_eq!(open.scene.components.len(), 1, "{:?}", open.scene.components);
     assert_eq!(open.scene.last_layer().surface, Surface::Infinity);
+    let report = &open.solution.report;
+    assert!(report.parameter("background_distance").is_none() && report.remarks.is_empty(), "{report:?}");
     // A fifth of the sky is land, of which nothing tells the distance.
     let shore = land.iter().enumerate().map(|(i, &land)| if i % SIZE.x as usize > 384 { 0 } else { land });
     let shore: Vec<u8> = shore.collect();
     files.insert("sky.png".to_owned(), encode_png(SIZE, PngPixels::Gray(&shore)).unwrap());
     let closed = place(&read(&Tour::check(file).unwrap(), &files)).unwrap();
     assert!(closed.scene.components.iter().any(|component| component.name == "background"));
+    let remarks = &closed.solution.report.remarks;
+    assert!(remarks.iter().any(|remark| remark.contains("are assumed")), "{remarks:?}");
 }

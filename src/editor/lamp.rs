@@ -165,6 +165,8 @@ fn background(tour: &TourFile, solution: Option<&Solution>) -> (Lamp, Vec<Need>)
     match label(solution, "background_distance") {
         Some(Label::Measured) => (Lamp::Good, Vec::new()),
         Some(Label::Weak) => (Lamp::Rough, vec![Need::BackgroundUnsure]),
+        // On the open sea there is none.
+        None if solution.is_some() => (Lamp::Good, Vec::new()),
         Some(Label::Assumed) | None if is_marked => (Lamp::Rough, vec![Need::BackgroundUnsure]),
         Some(Label::Assumed) | None => (Lamp::Missing, vec![Need::Background]),
     }
