@@ -44,6 +44,8 @@ const REAL: f64 = 3.0;
 const LEAST_SHARE: f64 = 0.01;
 /// Outlines are overstepped by one part in so many of the picture's width.
 const BEYOND_OUTLINE: usize = 80;
+/// Shifts are averaged over squares, so many to the picture's width.
+const PARTS: usize = 40;
 /// Known pixels err together over this many, so that so many count as one.
 const TOGETHER: f64 = 400.0;
 
@@ -170,7 +172,7 @@ pub fn bands(
         let pixels: Vec<usize> = (0..count).filter(|&pixel| own(pixel)).collect();
         let (mean, own_variance) = match label {
             0 => (0.0, 0.0),
-            _ => (mean(&measured, &shift), mean_variance(&measured, &variance)),
+            _ => (mean(width, &pixels, &measured, &shift), mean_variance(&measured, &variance)),
         };
         let plane = label.checked_sub(1).map(|plane| found[usize::from(plane)]);
         let recedes = plane.is_some_and(|plane| plane.recedes());
@@ -219,9 +221,25 @@ fn refined(plane: Plane, measured: &[usize], sample: &dyn Fn(usize) -> Sample) -
 /// Shifts are never known better than this, pixels.
 const MEASURED_PX: f64 = 0.1;
 
-/// Mean shift of some pixels.
-fn mean(measured: &[usize], shift: &dyn Fn(usize) -> f64) -> f64 {
-    measured.iter().map(|&pixel| shift(pixel)).sum::<f64>() / measured.len().max(1) as f64
+/// Mean shift of a band's pixels by those that were measured: parts of the picture count as much as the band covers of
+/// them. What is nearer and lower is mirrored more freely, and so measured more often, than what is farther off.
+fn mean(width: usize, pixels: &[usize], measured: &[usize], shift: &dyn Fn(usize) -> f64) -> f64 {
+    let side = (width / PARTS).max(1);
+    let columns = width.div_ceil(side);
+    let part = |pixel: usize| pixel / width / side * columns + pixel % width / side;
+    let count = pixels.last().map_or(0, |&last| part(last / width * width + width - 1) + 1);
+    // Pixels, measured ones, and the sum of their shifts.
+    let mut parts = vec![[0.0; 3]; count];
+    pixels.iter().for_each(|&pixel| parts[part(pixel)][0] += 1.0);
+    for &pixel in measured {
+        let [_, count, sum] = &mut parts[part(pixel)];
+        (*count, *sum) = (*count + 1.0, *sum + shift(pixel));
+    }
+    let known = parts.iter().filter(|[_, count, _]| *count > 0.0);
+    let (all, sum) = known.fold((0.0, 0.0), |(all, sum), [pixels, count, shifts]| {
+        (all + pixels, sum + pixels * shifts / count)
+    });
+    sum / f64::max(all, 1.0)
 }
 
 /// Variance of the mean shift of some pixels.
@@ -242,4 +260,18 @@ fn without_few(mut seeds: Vec<Option<u8>>, labels: usize) -> Vec<Option<u8>> {
         *seed = seed.filter(|&label| counts[usize::from(label)] as f64 >= least);
     }
     seeds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_seldom_measured_counts_as_much_as_it_is_seen() {
+        // Of the upper half every pixel was measured, of the lower one every tenth, and of the next rows none.
+        let pixels: Vec<usize> = (0..25 * 80).collect();
+        let measured: Vec<usize> = (0..20 * 80).filter(|&pixel| pixel < 10 * 80 || pixel % 10 == 0).collect();
+        let found = mean(80, &pixels, &measured, &|pixel| if pixel < 10 * 80 { 10.0 } else { 20.0 });
+        assert!((found - 15.0).abs() < 1e-9, "{found}");
+    }
 }
