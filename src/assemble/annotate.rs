@@ -13,6 +13,7 @@ use crate::tour::Carrier;
 use crate::tour::Medium;
 
 use super::TourSource;
+use super::backdrops::is_open;
 
 /// Deviations of marks in pixels: a point; a reflection sideways; a reflection up and down, where ripples blur it.
 const MARK_PX: f64 = 1.0;
@@ -53,7 +54,7 @@ pub fn annotations(source: &TourSource) -> Annotations {
                 contact: object.contact,
             })
             .collect(),
-        background: background(tour),
+        background: background(source),
         ground_height: tour
             .ground
             .as_ref()
@@ -80,8 +81,9 @@ fn background_place(tour: &tour::Tour) -> Option<&BackgroundPlace> {
     tour.background.place.as_ref().or(tour.background.bands.first().map(|band| &band.place))
 }
 
-fn background(tour: &tour::Tour) -> BackgroundHint {
-    match background_place(tour) {
+fn background(source: &TourSource) -> BackgroundHint {
+    match background_place(&source.tour) {
+        None if is_open(source) => BackgroundHint::Open,
         Some(BackgroundPlace::Distance(meters)) => BackgroundHint::Distance(*meters),
         Some(BackgroundPlace::Contact(points)) => BackgroundHint::Contact(points.clone()),
         Some(BackgroundPlace::Infinity) | None => BackgroundHint::FromPairs,

@@ -10,8 +10,8 @@ use crate::scene::BackdropPlace;
 use crate::scene::BackdropPlan;
 use crate::scene::Role;
 use crate::scene::TourScene;
-use crate::solve::{Label, Solution};
-use crate::tour::BackgroundPlace;
+use crate::solve::Solution;
+use crate::tour::{BackgroundPlace, Carrier};
 
 /// All backdrops, in the tour's order.
 pub(super) fn backdrops(
@@ -34,7 +34,7 @@ pub(super) fn backdrops(
         })
         .collect();
     let taken = background.bands.iter().any(|band| band.region.is_none());
-    let said = background.place.is_some() || background.bands.is_empty() && !is_open(source, solution);
+    let said = background.place.is_some() || background.bands.is_empty() && !is_open(source);
     if said && !taken {
         let place = match background.place {
             Some(BackgroundPlace::Infinity) => BackdropPlace::Infinity,
@@ -66,9 +66,14 @@ pub(super) fn backdrops(
 const LEAST_LAND: f64 = 0.005;
 
 /// Whether nothing tells how far a background stands, and the sky's mask leaves nothing that could be one.
-fn is_open(source: &TourSource, solution: &Solution) -> bool {
-    let distance = solution.report.parameter("background_distance");
-    if source.sky.is_none() || distance.is_none_or(|distance| distance.label != Label::Assumed) {
+pub(super) fn is_open(source: &TourSource) -> bool {
+    let tour = &source.tour;
+    let pairs = tour.water.iter().flat_map(|water| &water.pairs);
+    // Pairs on nothing in particular tell of a background.
+    let is_told = tour.background.place.is_some()
+        || !tour.background.bands.is_empty()
+        || pairs.into_iter().any(|pair| !matches!(tour.carrier(pair), Some(Carrier::Object(_))));
+    if source.sky.is_none() || is_told {
         return false;
     }
     let land = background_mask(source);

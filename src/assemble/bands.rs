@@ -3,13 +3,13 @@
 //! The document changes, nothing else: bands are written as a person would mark them, near ones first, the farthest
 //! without a region, so that it shows whatever no other claims. What the mirror image does not support is not cut.
 
-use glam::UVec2;
+use glam::{DVec2, UVec2};
 
 use super::measure::{background_mask, measure_depth};
 use super::{TourSource, annotations};
 use crate::camera::PinholeCamera;
 use crate::depth::{BandOptions, DepthBand, DepthError, DepthMap, bands};
-use crate::picture::Mask;
+use crate::picture::{Mask, PicturePoint};
 use crate::solve::{SolveError, solve};
 use crate::tour::{
     Background, BackgroundPlace, Band, Crop, Problems, Region, RelativePath, Sky, Tour, TourFile,
@@ -90,7 +90,8 @@ pub fn cut_bands(
     let cut = cut_once(tour, source, options, &|share| progress(0.5 * share))?;
     let on_background = |on: &Option<String>| on.as_deref().is_some_and(|on| is_of_background(tour, on));
     let pairs = source.tour.water.as_ref().map_or(&[][..], |water| &water.pairs);
-    if standing(&cut.bands).count() < 2 || !pairs.iter().any(|pair| on_background(&pair.on)) {
+    let is_flat = standing(&cut.bands).count() < 2 && !standing(&cut.bands).any(|band| band.recedes);
+    if is_flat || !pairs.iter().any(|pair| on_background(&pair.on)) {
         return Ok(cut);
     }
     // Pairs at several distances were solved as if they had one, and all distances are measured with the camera that
@@ -186,19 +187,27 @@ fn written(
         let drift = file.sky.and_then(|sky| sky.drift);
         file.sky = Some(Sky { region: Some(region("sky", &found.mask)?), drift });
     }
+    let has_sky = file.sky.as_ref().is_some_and(|sky| sky.region.is_some());
     let standing: Vec<&DepthBand> = standing(bands).collect();
     file.background = Background::default();
     let mut names = Vec::new();
     match standing.as_slice() {
-        [one] => file.background.place = Some(BackgroundPlace::Distance(one.distance)),
+        [one] if !(one.recedes && has_sky) => {
+            file.background.place = Some(BackgroundPlace::Distance(one.distance));
+        }
         [farthest, nearer @ ..] => {
             let is_taken = |name: &str| tour.objects.iter().any(|object| object.name == name);
             let free = (1..).map(|i| format!("band {i}")).filter(|name| !is_taken(name));
             // Near ones first.
             for (band, name) in nearer.iter().rev().chain([farthest]).zip(free) {
-                let is_farthest = std::ptr::eq(*band, *farthest);
-                let region = if is_farthest { None } else { Some(region(&name, &band.mask)?) };
-                let place = BackgroundPlace::Distance(band.distance);
+                let line = contact_line(tour, source, band);
+                // What has no region is prolonged without end: a receding plane has one, before the sky.
+                let shows_the_rest = std::ptr::eq(*band, *farthest) && (line.is_none() || !has_sky);
+                let region = if shows_the_rest { None } else { Some(region(&name, &band.mask)?) };
+                let place = match line.filter(|_| !shows_the_rest) {
+                    Some(line) => BackgroundPlace::Contact(line),
+                    None => BackgroundPlace::Distance(band.distance),
+                };
                 file.background.bands.push(Band { name: name.clone(), region, place });
                 names.push((name, *band));
             }
@@ -207,6 +216,24 @@ fn written(
     }
     move_pairs(tour, source, &mut file, &names);
     Ok((file, masks))
+}
+
+/// Where a receding band meets the water, in the document's pixels; `None` for others, and where that is not below the
+/// horizon that a person marked.
+fn contact_line(tour: &Tour, source: &TourSource, band: &DepthBand) -> Option<Vec<PicturePoint>> {
+    let line = band.contact.filter(|_| band.recedes)?;
+    let uncropped = source.uncropped_size;
+    let crop = tour.crop_in(uncropped);
+    let corner = UVec2::new(crop.left, crop.top).as_dvec2();
+    let ratio = tour.picture.size.map_or(DVec2::ONE, |size| size.as_dvec2() / uncropped.as_dvec2());
+    let line = line.map(|point| PicturePoint((point.0 + corner) * ratio));
+    let is_below = |point: &PicturePoint| {
+        tour.camera.horizon.is_none_or(|[a, b]| {
+            let part = (point.x() - a.x()) / (b.x() - a.x());
+            point.y() > a.y() + part * (b.y() - a.y())
+        })
+    };
+    line.iter().all(is_below).then(|| line.to_vec())
 }
 
 /// Puts the background's pairs on the bands that show their points.

@@ -2,11 +2,12 @@
 
 use std::collections::HashMap;
 
-use glam::{DVec3, UVec2};
+use glam::{DVec2, DVec3, UVec2};
 
 use super::*;
 use crate::assemble::{hints, place};
 use crate::depth::Agreement;
+use crate::depth::tests::receding;
 use crate::depth::tests::world::{Lake, camera, frontal};
 use crate::picture::{PngPixels, encode_png};
 use crate::scene::Surface;
@@ -121,6 +122,35 @@ fn masks_are_as_large_as_the_picture_before_its_crop() {
 }
 
 #[test]
+fn a_receding_wall_is_written_by_its_contact_line() {
+    let lake = receding();
+    let crop = Crop { left: 40, top: 10, width: 420, height: 250 };
+    let (tour, source, mut files) = marked(&lake, |file| {
+        file.picture.crop = Some(crop);
+        file.water.iter_mut().for_each(|water| water.pairs.clear());
+    });
+    let found = cut(&tour, &source, false).unwrap();
+    let bands = &found.tour.background.bands;
+    let [wall, mountains] = bands.as_slice() else { panic!("{bands:?}") };
+    let BackgroundPlace::Contact(line) = &wall.place else { panic!("{:?}", wall.place) };
+    assert!(matches!(mountains.place, BackgroundPlace::Distance(_)) && mountains.region.is_none());
+    let [far, near] = lake.walls[0].ends;
+    let off = |at: DVec3| (near - far).perp().normalize().dot(DVec2::new(at.x, at.z) - far).abs();
+    for point in line {
+        let ray = lake.camera.ray(*point);
+        let foot = ray.at(-ray.origin.y / ray.direction.y);
+        assert!(off(foot) < 0.03 * -foot.z, "its foot at {foot} is {} m off the wall", off(foot));
+    }
+    for (path, mask) in &found.masks {
+        files.insert(path.to_string(), encode_png(SIZE, PngPixels::Gray(mask.values())).unwrap());
+    }
+    let scene = place(&read(&found.tour, &files)).unwrap().scene;
+    let placed = scene.components.iter().find(|component| component.name == wall.name).unwrap();
+    let Surface::Wall(placed) = placed.surface else { panic!("{:?}", placed.surface) };
+    assert!(placed.along.y.abs() > 0.9 * (near - far).normalize().y.abs(), "{placed:?}");
+}
+
+#[test]
 fn what_cannot_be_measured_is_refused() {
     let rough = Lake { mirror: false, ..two_walls() };
     let (tour, source, _) = marked(&rough, |_| {});
@@ -173,10 +203,14 @@ fn on_the_open_sea_the_sky_closes_the_scene() {
     let open = place(&read(&Tour::check(file.clone()).unwrap(), &files)).unwrap();
     assert_eq!(open.scene.components.len(), 1, "{:?}", open.scene.components);
     assert_eq!(open.scene.last_layer().surface, Surface::Infinity);
+    let report = &open.solution.report;
+    assert!(report.parameter("background_distance").is_none() && report.remarks.is_empty(), "{report:?}");
     // A fifth of the sky is land, of which nothing tells the distance.
     let shore = land.iter().enumerate().map(|(i, &land)| if i % SIZE.x as usize > 384 { 0 } else { land });
     let shore: Vec<u8> = shore.collect();
     files.insert("sky.png".to_owned(), encode_png(SIZE, PngPixels::Gray(&shore)).unwrap());
     let closed = place(&read(&Tour::check(file).unwrap(), &files)).unwrap();
     assert!(closed.scene.components.iter().any(|component| component.name == "background"));
+    let remarks = &closed.solution.report.remarks;
+    assert!(remarks.iter().any(|remark| remark.contains("are assumed")), "{remarks:?}");
 }

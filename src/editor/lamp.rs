@@ -182,6 +182,8 @@ fn background(tour: &TourFile, solution: Option<&Solution>) -> (Lamp, Vec<Need>)
     match label(solution, "background_distance") {
         Some(Label::Measured) => (Lamp::Good, Vec::new()),
         Some(Label::Weak) => (Lamp::Rough, vec![unsure]),
+        // On the open sea there is none.
+        None if solution.is_some() => (Lamp::Good, Vec::new()),
         Some(Label::Assumed) | None if is_marked => (Lamp::Rough, vec![unsure]),
         Some(Label::Assumed) | None => (Lamp::Missing, vec![Need::Background]),
     }

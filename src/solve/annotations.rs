@@ -128,6 +128,8 @@ pub enum BackgroundHint {
     Contact(Vec<PicturePoint>),
     /// Whatever the reflection pairs say.
     FromPairs,
+    /// There is none: the sky closes the scene. The report then leaves its distance out.
+    Open,
 }
 
 /// Which plane a reflection pair lies on.

@@ -39,7 +39,7 @@ impl Annotations {
             BackgroundHint::Contact(points) => {
                 points.iter().try_for_each(|&point| finite("the background's contact line", point))?;
             }
-            BackgroundHint::FromPairs => {}
+            BackgroundHint::FromPairs | BackgroundHint::Open => {}
         }
         self.ground_contact
             .iter()

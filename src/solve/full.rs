@@ -208,7 +208,7 @@ fn start_ratios(annotations: &Annotations, unknowns: &mut Unknowns, ratio_open: 
         dips.filter(|(pair, _)| pair.on == PairPlane::Background).map(|(_, dip)| dip).collect();
     let contact = match &annotations.background {
         BackgroundHint::Contact(points) => points.iter().map(|&point| -lens.level(point).y).collect(),
-        BackgroundHint::Distance(_) | BackgroundHint::FromPairs => Vec::new(),
+        BackgroundHint::Distance(_) | BackgroundHint::FromPairs | BackgroundHint::Open => Vec::new(),
     };
     let dip = middle(on_background).or_else(|| middle(contact)).unwrap_or(0.02);
     unknowns[LN_BACKGROUND_DIP] = dip.max(1e-4).ln();

@@ -68,7 +68,7 @@ pub(super) fn parameters(
     let (dip, _) = seen_background_dip(annotations, &lens, unknowns, kept);
     let background_distance = match annotations.background {
         BackgroundHint::Distance(meters) => meters,
-        BackgroundHint::Contact(_) | BackgroundHint::FromPairs => height / dip,
+        BackgroundHint::Contact(_) | BackgroundHint::FromPairs | BackgroundHint::Open => height / dip,
     };
     // Not the exponential of a logarithm, which may differ in the last bit.
     let focal_px = if let FocalLength::Known(px) = annotations.focal { px } else { lens.focal_px };

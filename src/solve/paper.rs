@@ -151,22 +151,23 @@ fn report(
                     format!("the background's reflections put it at {by_pairs:.0} m, not {meters:.0} m")
                 },
             ));
-            given("background_distance", *meters)
+            Some(given("background_distance", *meters))
         }
+        (BackgroundHint::Open, _) => None,
         (BackgroundHint::Contact(_) | BackgroundHint::FromPairs, Some((below, deviation))) => {
-            distance_report(background_distance, deviation / below, annotations)
+            Some(distance_report(background_distance, deviation / below, annotations))
         }
         (BackgroundHint::Contact(_) | BackgroundHint::FromPairs, None) => {
             remarks.push(format!(
                 "nothing below the horizon shows how far the background is; {background_distance:.0} m are assumed"
             ));
-            assumed("background_distance", background_distance)
+            Some(assumed("background_distance", background_distance))
         }
     };
     let (pitch, roll) = (assumed("pitch", 0.0), assumed("roll", 0.0));
     SolveReport {
         method: Method::Paper,
-        parameters: vec![focal, pitch, roll, height, ground, background],
+        parameters: [focal, pitch, roll, height, ground].into_iter().chain(background).collect(),
         pairs,
         remarks,
     }

@@ -98,6 +98,7 @@ impl Remarks<'_> {
         let (_, source) = metric::seen_background_dip(annotations, &lens, self.unknowns, &self.evidence.kept);
         let mut remarks = Vec::new();
         match source {
+            BackgroundSource::Assumed if annotations.background == BackgroundHint::Open => {}
             BackgroundSource::Assumed => remarks.push(format!(
                 "nothing shows how far the background is; {distance:.0} m are assumed: mark where it meets the water"
             )),

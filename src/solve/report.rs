@@ -53,7 +53,8 @@ pub struct PairReport {
 pub struct SolveReport {
     /// How it was solved.
     pub method: Method,
-    /// `focal_px`, `pitch`, `roll`, `height`, `ground_height`, `background_distance`, in this order.
+    /// `focal_px`, `pitch`, `roll`, `height`, `ground_height`, `background_distance`, in this order; the last is missing
+    /// where there is no background.
     pub parameters: Vec<ParameterReport>,
     /// In the order of the annotations.
     pub pairs: Vec<PairReport>,

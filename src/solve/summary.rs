@@ -1,6 +1,7 @@
 //! The report of the full method: labels, deviations, and remarks in words.
 
 use super::Annotations;
+use super::BackgroundHint;
 use super::Label;
 use super::Method;
 use super::PairReport;
@@ -68,14 +69,16 @@ pub(super) fn report(
     let observability = Observability::new(evidence, unknowns);
     let summary =
         Summary { evidence, annotations: evidence.annotations, unknowns, parameters, observability };
-    let parameters = vec![
+    let mut parameters = vec![
         summary.focal(),
         summary.angle("pitch", PITCH, PITCH_DEVIATION),
         summary.angle("roll", ROLL, ROLL_DEVIATION),
         summary.height(),
         summary.ground_height(),
-        summary.background(),
     ];
+    if evidence.annotations.background != BackgroundHint::Open {
+        parameters.push(summary.background());
+    }
     let remarks = remarks::remarks(evidence, unknowns, summary.parameters, parameters[0].label);
     SolveReport { method: Method::Full, parameters, pairs, remarks }
 }

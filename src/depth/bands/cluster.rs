@@ -5,6 +5,10 @@
 pub(super) struct Clusters {
     /// The intervals' means, pixels.
     pub(super) centers: Vec<f64>,
+    /// Squared pixels, summed: what the intervals leave, what one would, and what measuring alone makes.
+    pub(super) left: f64,
+    pub(super) all: f64,
+    pub(super) noise: f64,
 }
 
 /// Shifts are counted in bins this wide, pixels.
@@ -12,26 +16,19 @@ const BIN: f64 = 0.25;
 /// So many bins at most; wider ones, if there are more.
 const MOST_BINS: usize = 800;
 /// A further interval must take away this part of what the intervals before left, and of all there was.
-const GAIN: f64 = 0.3;
-const WORTH: f64 = 0.004;
-
-impl Clusters {
-    /// The interval that a shift belongs to.
-    pub(super) fn nearest(&self, shift: f64) -> usize {
-        let bounds = self.centers.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
-        bounds.filter(|&bound| shift >= bound).count()
-    }
-}
+pub(super) const GAIN: f64 = 0.3;
+pub(super) const WORTH: f64 = 0.004;
 
 /// Parts shifts, each with its variance, into `most` intervals at most (optimal one-dimensional k-means). Neighboring
 /// centers are at least `apart` pixels from each other; there is one interval if nothing more is supported, none
-/// without shifts.
-pub(super) fn cluster(shifts: &[(f64, f64)], most: usize, apart: f64) -> Clusters {
+/// without shifts. They may be a part
+/// of what was measured, whose spread about one mean is `whole`; else that is 0.
+pub(super) fn cluster(shifts: &[(f64, f64)], most: usize, apart: f64, whole: f64) -> Clusters {
     let finite = || shifts.iter().filter(|(shift, variance)| shift.is_finite() && variance.is_finite());
     let (low, high) =
         finite().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (s, _)| (low.min(*s), high.max(*s)));
     if low > high {
-        return Clusters { centers: Vec::new() };
+        return Clusters { centers: Vec::new(), left: 0.0, all: 0.0, noise: 0.0 };
     }
     let width = BIN.max((high - low) / MOST_BINS as f64);
     let mut bins = vec![[0.0; 4]; ((high - low) / width) as usize + 1];
@@ -80,7 +77,7 @@ pub(super) fn cluster(shifts: &[(f64, f64)], most: usize, apart: f64) -> Cluster
         let empty = intervals.iter().any(|&(from, to)| part(from, to)[0] == 0.0);
         let too_near = intervals.windows(2).any(|pair| mean(&pair[1]) - mean(&pair[0]) < apart);
         let gain = left - next;
-        if empty || too_near || gain < GAIN * (left - noise).max(0.0) || gain < WORTH * all {
+        if empty || too_near || gain < GAIN * (left - noise).max(0.0) || gain < WORTH * all.max(whole) {
             break;
         }
         (chosen, left) = (intervals, next);
@@ -88,7 +85,8 @@ pub(super) fn cluster(shifts: &[(f64, f64)], most: usize, apart: f64) -> Cluster
             break;
         }
     }
-    Clusters { centers: chosen.iter().map(|&(from, to)| part(from, to)[1] / part(from, to)[0]).collect() }
+    let centers = chosen.iter().map(|&(from, to)| part(from, to)[1] / part(from, to)[0]).collect();
+    Clusters { centers, left, all, noise }
 }
 
 #[cfg(test)]
@@ -103,26 +101,24 @@ mod tests {
     #[test]
     fn heaps_apart_are_told_apart() {
         let all = [shifts(500, 3.0, 4.0), shifts(300, 14.0, 16.0), shifts(900, 29.5, 30.5)].concat();
-        let found = cluster(&all, 8, 1.5).centers;
+        let found = cluster(&all, 8, 1.5, 0.0).centers;
         assert_eq!(found.len(), 3, "{found:?}");
         for (center, truth) in found.iter().zip([3.5, 15.0, 30.0]) {
             assert!((center - truth).abs() < 0.1, "{found:?}");
         }
-        let clusters = Clusters { centers: found };
-        assert_eq!([0.0, 9.0, 10.0, 400.0].map(|s| clusters.nearest(s)), [0, 0, 1, 2]);
     }
 
     #[test]
     fn noise_is_not_cut() {
-        assert_eq!(cluster(&shifts(1000, 26.5, 27.5), 8, 1.5).centers.len(), 1);
-        assert!(cluster(&[], 8, 1.5).centers.is_empty());
-        assert!(cluster(&[(f64::NAN, 1.0), (3.0, f64::INFINITY)], 8, 1.5).centers.is_empty());
+        assert_eq!(cluster(&shifts(1000, 26.5, 27.5), 8, 1.5, 0.0).centers.len(), 1);
+        assert!(cluster(&[], 8, 1.5, 0.0).centers.is_empty());
+        assert!(cluster(&[(f64::NAN, 1.0), (3.0, f64::INFINITY)], 8, 1.5, 0.0).centers.is_empty());
     }
 
     #[test]
     fn a_slope_is_cut_no_finer_than_allowed() {
-        let found = cluster(&shifts(5000, 5.0, 45.0), 8, 6.0).centers;
+        let found = cluster(&shifts(5000, 5.0, 45.0), 8, 6.0, 0.0).centers;
         assert!(found.len() > 2 && found.windows(2).all(|pair| pair[1] - pair[0] >= 6.0), "{found:?}");
-        assert!(cluster(&shifts(5000, 5.0, 45.0), 2, 1.0).centers.len() <= 2);
+        assert!(cluster(&shifts(5000, 5.0, 45.0), 2, 1.0, 0.0).centers.len() <= 2);
     }
 }

@@ -13,6 +13,8 @@ const LABELS: usize = 9;
 /// What a label costs where another is measured; and over a color that it never has.
 const MEASURED: f32 = 1.0;
 const STRANGE: f32 = 1.0;
+/// And where it may not be.
+const NEVER: f32 = 1000.0;
 /// What a change of label costs where colors stay, in the costs of so many pixels of a picture 1000 pixels wide; and the
 /// least, over any edge.
 const EVEN: f32 = 16.0;
@@ -27,11 +29,13 @@ const SHADES: usize = 16;
 
 type Costs = [f32; LABELS];
 
-/// Gives every pixel of `inside` a label of those that `seeds` has; all stay `None` where there is none.
+/// Gives every pixel of `inside` a label of those that `seeds` has; all stay `None` where there is none. A pixel that
+/// `may` not have a label gets it only where it has no other beside it.
 pub(super) fn spread(
     width: usize,
     colors: &[[u8; 3]],
     inside: &(dyn Fn(usize) -> bool + Sync),
+    may: &(dyn Fn(usize, usize) -> bool + Sync),
     seeds: &[Option<u8>],
 ) -> Vec<Option<u8>> {
     let most = seeds.iter().flatten().max().map_or(0, |&most| usize::from(most) + 1).min(LABELS);
@@ -39,7 +43,7 @@ pub(super) fn spread(
         return vec![None; seeds.len()];
     }
     let strange = strangeness(colors, seeds, most);
-    let field = Field { width, colors, inside, seeds, strange, most };
+    let field = Field { width, colors, inside, may, seeds, strange, most };
     let (down, up) = rayon::join(|| field.sweep(true), || field.sweep(false));
     let cost = |cell: usize, label: usize| down[cell * most + label] + up[cell * most + label];
     let mut labels: Vec<Option<u8>> = (0..seeds.len())
@@ -56,6 +60,7 @@ struct Field<'a> {
     width: usize,
     colors: &'a [[u8; 3]],
     inside: &'a (dyn Fn(usize) -> bool + Sync),
+    may: &'a (dyn Fn(usize, usize) -> bool + Sync),
     seeds: &'a [Option<u8>],
     /// By color, what each label costs.
     strange: Vec<Costs>,
@@ -129,6 +134,11 @@ impl Field<'_> {
             let others = costs.iter_mut().enumerate().filter(|(label, _)| *label != usize::from(seed));
             others.for_each(|(_, cost)| *cost += MEASURED);
         }
+        for (label, cost) in costs[..self.most].iter_mut().enumerate() {
+            if !(self.may)(cell, label) {
+                *cost += NEVER;
+            }
+        }
         costs
     }
 
@@ -196,7 +206,7 @@ mod tests {
             55.. => Some(2),
             _ => None,
         });
-        let found = spread(WIDTH, &colors, &|cell| cell / WIDTH < 30, &seeds);
+        let found = spread(WIDTH, &colors, &|cell| cell / WIDTH < 30, &|_, _| true, &seeds);
         let truth = painted(|x, y| if y >= 30 { None } else { Some(if x < 35 { 1 } else { 2 }) });
         assert!(found == truth);
     }
@@ -214,7 +224,7 @@ mod tests {
             () if !(26..34).contains(&x) => Some(1),
             () => None,
         });
-        let found = spread(WIDTH, &colors, &|_| true, &seeds);
+        let found = spread(WIDTH, &colors, &|_| true, &|_, _| true, &seeds);
         let wrong = painted(|x, y| found[y * WIDTH + x] != Some(if is_tree(x, y) { 2 } else { 1 }));
         let wrong = wrong.iter().filter(|&&wrong| wrong).count();
         // Of the tree's 432 pixels 144 were measured as mountains.
@@ -223,7 +233,7 @@ mod tests {
 
     #[test]
     fn without_seeds_there_are_no_labels() {
-        let found = spread(WIDTH, &painted(|_, _| [9; 3]), &|_| true, &painted(|_, _| None));
+        let found = spread(WIDTH, &painted(|_, _| [9; 3]), &|_| true, &|_, _| true, &painted(|_, _| None));
         assert!(found.iter().all(Option::is_none));
     }
 }

@@ -1,7 +1,9 @@
 //! Bands are as many as the depth supports.
 
+use glam::DVec2;
+
 use super::world::{Lake, frontal};
-use super::{GRAY, GREEN, hills, map_of};
+use super::{GRAY, GREEN, hills, map_of, receding};
 use crate::depth::{BandOptions, DepthBand, bands};
 use crate::picture::Mask;
 
@@ -50,6 +52,23 @@ fn one_wall_makes_one_band_at_its_distance() {
     assert_eq!(found.len(), 1, "{:?}", found.iter().map(|band| band.distance).collect::<Vec<_>>());
     assert!((found[0].distance / 90.0 - 1.0).abs() < 0.03, "{} m", found[0].distance);
     assert!(found[0].measured > 0.5, "{}", found[0].measured);
+}
+
+#[test]
+fn a_receding_wall_is_one_band_along_its_line() {
+    let lake = receding();
+    let (found, _) = bands_of(&lake, BandOptions::default());
+    let standing: Vec<&DepthBand> = found.iter().filter(|band| band.distance.is_finite()).collect();
+    let [mountains, wall] = standing.as_slice() else { panic!("{} bands", standing.len()) };
+    assert!(wall.recedes && !mountains.recedes);
+    let [far, near] = lake.walls[0].ends;
+    let normal = (near - far).perp().normalize();
+    for point in wall.contact.expect("it stands on the water") {
+        let ray = lake.camera.ray(point);
+        let foot = ray.at(-ray.origin.y / ray.direction.y);
+        let off = normal.dot(DVec2::new(foot.x, foot.z) - far).abs();
+        assert!(off < 0.03 * -foot.z, "its foot at {foot} is {off} m off the wall");
+    }
 }
 
 #[test]

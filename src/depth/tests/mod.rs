@@ -102,11 +102,16 @@ fn what_the_water_hides_behind_a_shore_is_not_drawn_to_the_shore() {
     assert!(known > 2000 && drawn * 20 < known, "{drawn} of {known} pixels were drawn to the shore");
 }
 
-#[test]
-fn a_receding_wall_has_a_distance_of_its_own_in_every_column() {
+/// A wall of houses that recedes to the left before mountains.
+pub(crate) fn receding() -> Lake {
     let ends = [DVec2::new(-30.0, -120.0), DVec2::new(14.0, -18.0)];
     let wall = Wall { ends, height: 9.0, jagged: 2.0, grain: 2.0, color: [150.0, 120.0, 90.0] };
-    let lake = Lake { walls: vec![wall, frontal(200.0, 40.0, 20.0, GRAY)], ..hills(-2.0, 0.0) };
+    Lake { walls: vec![wall, frontal(200.0, 40.0, 20.0, GRAY)], ..hills(-2.0, 0.0) }
+}
+
+#[test]
+fn a_receding_wall_has_a_distance_of_its_own_in_every_column() {
+    let lake = receding();
     let shot = lake.shot();
     let map = map_of(&shot, &lake.camera);
     let quality = quality(&shot, &map);

@@ -72,6 +72,8 @@ pub(crate) struct MeasuredBand {
     pub(crate) measured: f64,
     /// Whether the step from the next farther one is more than chance.
     pub(crate) real: bool,
+    /// Whether it recedes along its contact line.
+    pub(crate) recedes: bool,
 }
 
 /// The camera by the marks and by all pairs that the mirror image shows.
@@ -169,6 +171,7 @@ impl MeasuredBand {
             deviation: finite(band.deviation),
             measured: band.measured,
             real: band.is_real(),
+            recedes: band.recedes,
         }
     }
 }

@@ -79,7 +79,11 @@ pub(crate) fn table_of_bands(bands: &[MeasuredBand]) -> Table<4> {
         let distance = band.distance.map_or_else(|| "sky".to_owned(), meters);
         let deviation = band.deviation.map_or_else(|| "-".to_owned(), meters);
         let measured = format!("{:.0} %", 100.0 * band.measured);
-        let remark = if band.real { "" } else { "cannot be told from the one before" };
+        let remark = match (band.recedes, band.real) {
+            (true, _) => "recedes along its contact line",
+            (false, true) => "",
+            (false, false) => "cannot be told from the one before",
+        };
         table.row([distance, deviation, measured, remark.to_owned()]);
     }
     table
