@@ -5,11 +5,11 @@
 
 use glam::{DVec2, UVec2};
 
-use super::measure::{background_mask, measure_depth};
+use super::measure::{background_mask, depth_options, measure_depth};
 use super::{TourSource, annotations};
 use crate::camera::PinholeCamera;
-use crate::depth::{BandOptions, DepthBand, DepthError, DepthMap, bands};
-use crate::picture::{Mask, PicturePoint};
+use crate::depth::{BandOptions, DepthBand, DepthError, DepthMap, bands, measure};
+use crate::picture::{Mask, Picture, PicturePoint};
 use crate::solve::{SolveError, solve};
 use crate::tour::{
     Background, BackgroundPlace, Band, Crop, Problems, Region, RelativePath, Sky, Tour, TourFile,
@@ -115,10 +115,7 @@ fn cut_once(
     options: &CutOptions,
     progress: &dyn Fn(f32) -> bool,
 ) -> Result<BandedTour, BandError> {
-    let Some(water) = &source.water else { return Err(BandError::NoWater) };
-    let camera = solve(&annotations(source))?.parameters.camera(source.picture.size());
-    let map = measure_depth(source, &camera, progress)?.ok_or(BandError::NoWater)?;
-    let bands = real_bands(source, &background_mask(source), water, &camera, &map);
+    let bands = measured_bands(source, MOST_PIXELS, progress)?;
     if standing(&bands).next().is_none() {
         return Err(BandError::NoMirror);
     }
@@ -128,6 +125,37 @@ fn cut_once(
     }
     let (file, masks) = written(tour, source, options, &bands)?;
     Ok(BandedTour { tour: Tour::check(file)?, masks, bands })
+}
+
+/// Pixels of the largest picture that is measured as it is: labels of every pixel and band take memory and time.
+const MOST_PIXELS: f64 = 6e6;
+
+/// The bands that a tour's mirror image shows; in a large picture they are looked for at a smaller size.
+fn measured_bands(
+    source: &TourSource,
+    most_pixels: f64,
+    progress: &dyn Fn(f32) -> bool,
+) -> Result<Vec<DepthBand>, BandError> {
+    let Some(water) = &source.water else { return Err(BandError::NoWater) };
+    let whole = source.picture.size();
+    let mut camera = solve(&annotations(source))?.parameters.camera(whole);
+    let scale = (f64::from(whole.x) * f64::from(whole.y) / most_pixels).sqrt();
+    if scale <= 1.0 {
+        let map = measure_depth(source, &camera, progress)?.ok_or(BandError::NoWater)?;
+        return Ok(real_bands(&source.picture, &background_mask(source), water, &camera, &map));
+    }
+    let size = (whole.as_dvec2() / scale).round().as_uvec2().max(UVec2::ONE);
+    camera.intrinsics = camera.intrinsics.scaled_to(size);
+    let (picture, water) = (source.picture.shrunk_to(size), water.shrunk_to(size));
+    let options = depth_options(source, scale);
+    let map = measure(&picture, &water, &camera, camera.pose.position.y, &options, progress)?;
+    let mut found = real_bands(&picture, &background_mask(source).shrunk_to(size), &water, &camera, &map);
+    for band in &mut found {
+        band.mask = band.mask.enlarged_to(whole);
+        let ratio = whole.as_dvec2() / size.as_dvec2();
+        band.contact = band.contact.map(|line| line.map(|point| PicturePoint(point.0 * ratio)));
+    }
+    Ok(found)
 }
 
 /// Part of what stands somewhere whose distance was measured.
@@ -142,7 +170,7 @@ fn measured_share(bands: &[DepthBand]) -> f64 {
 
 /// Bands whose steps are all more than chance.
 fn real_bands(
-    source: &TourSource,
+    picture: &Picture,
     background: &Mask,
     water: &Mask,
     camera: &PinholeCamera,
@@ -150,7 +178,7 @@ fn real_bands(
 ) -> Vec<DepthBand> {
     let mut options = BandOptions::default();
     loop {
-        let found = bands(&source.picture, background, water, camera, map, &options);
+        let found = bands(picture, background, water, camera, map, &options);
         // The farthest's step is that from the sky.
         if standing(&found).skip(1).all(DepthBand::is_real) {
             return found;

@@ -214,3 +214,23 @@ fn on_the_open_sea_the_sky_closes_the_scene() {
     let remarks = &closed.solution.report.remarks;
     assert!(remarks.iter().any(|remark| remark.contains("are assumed")), "{remarks:?}");
 }
+
+#[test]
+fn a_large_picture_is_measured_at_a_smaller_size() {
+    let (_, source, _) = marked(&two_walls(), |_| {});
+    let pixels = f64::from(SIZE.x * SIZE.y);
+    let [whole, small] = [pixels, 0.6 * pixels].map(|most| measured_bands(&source, most, &|_| true).unwrap());
+    assert_eq!(whole.len(), small.len(), "{small:?}");
+    for (whole, small) in whole.iter().zip(&small) {
+        assert_eq!(small.mask.size(), SIZE);
+        let is_near =
+            small.distance == whole.distance || (small.distance / whole.distance - 1.0).abs() < 0.03;
+        assert!(is_near, "{} m instead of {}", small.distance, whole.distance);
+        for (a, b) in whole.contact.iter().flatten().zip(small.contact.iter().flatten()) {
+            assert!((a.y() - b.y()).abs() < 0.5 && (a.x() - b.x()).abs() < 10.0, "{b:?} instead of {a:?}");
+        }
+        let pairs = whole.mask.values().iter().zip(small.mask.values());
+        let other = pairs.filter(|(a, b)| (**a > 127) != (**b > 127)).count();
+        assert!((other as f64) < 0.02 * pixels, "{other} pixels go elsewhere");
+    }
+}

@@ -34,11 +34,15 @@ pub fn measure_depth(
     progress: &dyn Fn(f32) -> bool,
 ) -> Result<Option<DepthMap>, DepthError> {
     let Some(water) = &source.water else { return Ok(None) };
-    let marks = annotations(source);
+    measure(&source.picture, water, camera, camera.pose.position.y, &depth_options(source, 1.0), progress)
+        .map(Some)
+}
+
+/// How a tour's picture is measured, where `scale` of its pixels make one that is looked at.
+pub(super) fn depth_options(source: &TourSource, scale: f64) -> DepthOptions {
     // Without a mark the horizon follows from pairs, which are marked no better.
-    let options =
-        DepthOptions { horizon_deviation_px: marks.horizon_deviation_px, ..DepthOptions::default() };
-    measure(&source.picture, water, camera, camera.pose.position.y, &options, progress).map(Some)
+    let horizon_deviation_px = annotations(source).horizon_deviation_px / scale;
+    DepthOptions { horizon_deviation_px, ..DepthOptions::default() }
 }
 
 /// What shows the background: everything but water, ground, objects, and the sky where it is marked.

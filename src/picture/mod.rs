@@ -14,6 +14,7 @@ mod lens;
 mod mask;
 mod profile;
 mod raster;
+mod scale;
 mod space;
 
 pub use decode::{DecodedPicture, MAX_PIXELS, MAX_SIDE, decode_mask, decode_picture};

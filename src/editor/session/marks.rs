@@ -9,6 +9,7 @@ use crate::editor::BrushStroke;
 use crate::picture::{DecodedPicture, Mask, Picture, PicturePoint};
 use crate::suggest::outline::{Brush, BrushMode, LiveWire, Side, Stroke, contact_line, simplified_line};
 use crate::tour::Region;
+use crate::tour::edit::desk::Desk;
 use crate::tour::edit::{Edit, PackedMask, RegionAt};
 
 /// How far a traced way may be simplified, picture pixels.
@@ -100,7 +101,7 @@ impl Session {
     pub(super) fn paint(&mut self, at: RegionAt, stroke: &BrushStroke, hardness: f64) {
         let Some(picture) = self.picture() else { return };
         let (scale, size) = (self.scale(&picture.picture), picture.picture.size());
-        let Some(tour) = self.desk.as_ref().map(|desk| desk.tour()) else { return };
+        let Some(tour) = self.desk.as_ref().map(Desk::tour) else { return };
         if !matches!(at.get(tour), Some(Region::Mask(_))) || at.is_guess(tour) {
             let mask = self
                 .mask_of(at, size, scale)
