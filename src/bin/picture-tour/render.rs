@@ -32,10 +32,10 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
     watch_for_ctrl_c()?;
     let opened = open::open(arguments.tour.as_deref())?;
     let mut frames = frames::planned(arguments, opened.asset.tour())?;
+    let own = |outs: Vec<PathBuf>| beside::refuse_own(arguments.tour.as_deref(), opened.asset.tour(), outs);
+    own(vec![arguments.out.clone()])?;
     let folder = folder_of(&arguments.out, &mut frames)?;
     let is_film = film::is_film(&arguments.out);
-    let files = frames.iter().filter(|_| !is_film).map(|frame| folder.join(&frame.file));
-    beside::refuse_own(arguments.tour.as_deref(), opened.asset.tour(), files.chain([arguments.out.clone()]))?;
     if is_film && !arguments.path && arguments.loop_seconds.is_none() {
         return Err(Failure::CannotRun(
             "a film needs something that goes on; add --path or --loop SECONDS, or name a folder with --out"
@@ -44,8 +44,9 @@ pub(crate) fn run(arguments: &RenderArguments) -> Result<ExitCode, Failure> {
     }
     if !is_film {
         prepare_folder(&folder)?;
+        // Now that the folder is there its files can be told from others.
+        own(frames.iter().map(|frame| folder.join(&frame.file)).collect())?;
     }
-
     let size = arguments.size.unwrap_or(opened.picture_size()).min(UVec2::splat(MAX_SIDE));
     let stop = || STOP.load(Ordering::Relaxed);
     // Before the work, in case that it cannot be made.
