@@ -140,9 +140,15 @@ pub(super) fn trimmed(map: &Mipmapped, picture: UVec2, largest: u32) -> Cow<'_, 
         return Cow::Borrowed(map);
     }
     let beside = ((largest - picture.x) / 2) as i32;
-    let first = ((-beside - layer.origin.x).max(0) as u32).next_multiple_of(BLOCK);
-    let end = (picture.x as i32 + beside - layer.origin.x).max(0) as u32;
-    Cow::Owned(map.columns(first, end.saturating_sub(first).min(largest / BLOCK * BLOCK)))
+    // Texels of every level are kept whole, so it begins at a block's; what the picture shows itself must stay.
+    let first = (-beside - layer.origin.x).max(0) as u32 / BLOCK * BLOCK;
+    let width = largest / BLOCK * BLOCK;
+    let [begin, end] = [0, picture.x as i32].map(|x| (x - layer.origin.x).max(0) as u32);
+    let holds = |first: &u32| *first <= begin && first + width >= end;
+    match [first, first + BLOCK].into_iter().find(holds) {
+        Some(first) => Cow::Owned(map.columns(first, width)),
+        None => Cow::Borrowed(map),
+    }
 }
 
 /// A map at another scale, averaged in premultiplied linear light; the map itself at scale 1. Its levels are new ones, in
@@ -192,6 +198,19 @@ mod tests {
                 let found = texels.iter().filter(|texel| texel[0] == code).count();
                 assert_eq!(found, count >> (2 * level), "texels of map {code} in level {level}");
             }
+        }
+    }
+
+    #[test]
+    fn what_is_trimmed_keeps_all_that_the_picture_shows() {
+        for (wide, beyond) in [(200, 40), (240, 37), (250, 41), (255, 33), (256, 48)] {
+            let origin = IVec2::new(-beyond, 0);
+            let size = UVec2::new(wide + 2 * beyond as u32, 20);
+            let map = Mipmapped::from(Layer::filled(origin, size, [1, 2, 3, 255]));
+            let found = trimmed(&map, UVec2::new(wide, 20), 256);
+            let (left, right) = (found.layer.origin.x, found.layer.origin.x + found.layer.size.x as i32);
+            assert!(left <= 0 && right >= wide as i32, "{left} to {right} of a picture {wide} px wide");
+            assert!(found.layer.size.x <= 256 || wide > 240, "{} px for {wide}", found.layer.size.x);
         }
     }
 
